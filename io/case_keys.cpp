@@ -1,0 +1,161 @@
+#include "io/case_keys.hpp"
+
+#include <fmt/format.h>
+
+#include "io/case_values.hpp"
+
+namespace alphadot {
+namespace {
+
+/// Adds keys of one settings structure of the case under the name of its table.
+template <class Settings>
+class Table {
+ public:
+  Table(std::vector<CaseKey>& keys, std::string name, Settings Case::*settings)
+      : keys_(keys), name_(std::move(name)), settings_(settings) {}
+
+  template <class T, class ValueType>
+  Table& key(const std::string& name, T Settings::*member, ValueType type, const std::string& doc) {
+    const auto at = [ settings = settings_, member ](auto& c) -> auto& {
+      return c.*settings.*member;
+    };
+    keys_.push_back(make_case_key(name_ + "." + name, at, type, doc));
+    return *this;
+  }
+  Table& required() {
+    keys_.back().required = true;
+    return *this;
+  }
+  Table& default_is(const std::string& note) {
+    keys_.back().default_note = note;
+    return *this;
+  }
+
+ private:
+  std::vector<CaseKey>& keys_;
+  std::string name_;
+  Settings Case::*settings_;
+};
+
+/// [boundary]: patch = "treatment", for any name of a patch.
+CaseKey boundary_key() {
+  const WordValue<BoundaryKind> kind{words_of<BoundaryKind>};
+  CaseKey key;
+  key.path = "boundary.*";
+  key.type = kind.type();
+  key.doc = "treatment of the patch of that name in the mesh (sting and jet are left out of the forces)";
+  key.required = true;
+  key.is_text = true;
+  key.read = [kind](std::string_view patch, const toml::node& value, Case& c) {
+    return kind.read(value, c.boundary[std::string(patch)]);
+  };
+  key.write = [kind](const Case& c) {
+    std::string lines;
+    for (const auto& [patch, treatment] : c.boundary)
+      lines += fmt::format("{} = {}\n", toml_string(patch), kind.write(treatment));
+    return lines;
+  };
+  return key;
+}
+
+std::vector<CaseKey> make_keys() {
+  const auto positive = NumberValue{.above = 0};
+  const auto count = IntegerValue{.from = 1};
+  const auto angle = NumberValue{.from = -180, .to = 180};
+
+  std::vector<CaseKey> keys;
+  keys.push_back(make_case_key(
+      "title", [](auto& c) -> auto& { return c.title; }, TextValue{.may_be_empty = true},
+      "what the case is, for people"));
+
+  Table(keys, "mesh", &Case::mesh)
+      .key("file", &MeshSettings::file, TextValue{}, "mesh, relative to the folder of the case file")
+      .required()
+      .key("scale", &MeshSettings::scale, positive, "mesh units to the units of [reference]");
+
+  Table(keys, "reference", &Case::reference)
+      .key("length", &ReferenceSettings::length, positive, "diameter or chord, for moments and rates")
+      .key("area", &ReferenceSettings::area, positive,
+           "area of the whole configuration, also for a half model")
+      .key("moment_center", &ReferenceSettings::moment_center, VectorValue{},
+           "point about which moments are taken")
+      .key("model", &ReferenceSettings::half_model, WordValue<bool>{words::model},
+           "half: the mesh is the half y >= 0, forces are doubled");
+
+  Table(keys, "freestream", &Case::freestream)
+      .key("mach", &FreestreamSettings::mach, positive, "Mach number")
+      .required()
+      .key("alpha", &FreestreamSettings::alpha, angle, "angle of attack, degrees")
+      .key("beta", &FreestreamSettings::beta, NumberValue{.from = -90, .to = 90},
+           "angle of sideslip, degrees")
+      .key("gamma", &FreestreamSettings::gamma, NumberValue{.above = 1, .to = 5}, "ratio of specific heats");
+
+  keys.push_back(boundary_key());
+
+  Table(keys, "space", &Case::space)
+      .key("flux", &SpaceSettings::flux, WordValue{words_of<FluxKind>}, "numerical flux")
+      .key("order", &SpaceSettings::order, IntegerValue{.from = 1, .to = 2}, "order of accuracy in space")
+      .key("gradient", &SpaceSettings::gradient, WordValue{words_of<GradientKind>}, "gradient of a cell")
+      .key("limiter", &SpaceSettings::limiter, WordValue{words_of<LimiterKind>}, "limiter of the gradient")
+      .key("limiter_k", &SpaceSettings::limiter_k, positive, "Venkatakrishnan's K")
+      .key("entropy_fix", &SpaceSettings::entropy_fix, NumberValue{.from = 0, .to = 1},
+           "Harten's delta as a share of the spectral radius");
+
+  Table(keys, "steady", &Case::steady)
+      .key("scheme", &SteadySettings::scheme, WordValue{words_of<SchemeKind>}, "implicit scheme")
+      .key("cfl_start", &SteadySettings::cfl_start, positive, "first CFL number")
+      .key("cfl_max", &SteadySettings::cfl_max, positive, "largest CFL number")
+      .key("cfl_growth", &SteadySettings::cfl_growth, NumberValue{.from = 1, .to = 100},
+           "growth of the CFL number")
+      .key("max_iterations", &SteadySettings::max_iterations, count, "limit of iterations")
+      .key("orders", &SteadySettings::orders, NumberValue{.above = 0, .to = 16},
+           "decades that the density residual must drop");
+
+  Table(keys, "motion", &Case::motion)
+      .key("kind", &MotionSettings::kind, WordValue{words_of<MotionKind>}, "motion after the steady state")
+      .key("treatment", &MotionSettings::treatment, WordValue{words_of<TreatmentKind>},
+           "how the motion enters the equations")
+      .key("amplitude", &MotionSettings::amplitude, positive,
+           "degrees of alpha, theta or phi; for step_q the reduced rate")
+      .key("reduced_frequency", &MotionSettings::reduced_frequency, positive, "omega * length / (2 V)")
+      .key("axis_point", &MotionSettings::axis_point, VectorValue{}, "rotations are about this point")
+      .default_is("reference.moment_center")
+      .key("table_file", &MotionSettings::table_file, TextValue{.may_be_empty = true},
+           "for kind = \"table\", relative to the folder of the case file");
+
+  Table(keys, "unsteady", &Case::unsteady)
+      .key("cycles", &UnsteadySettings::cycles, positive, "duration of a harmonic motion")
+      .key("steps_per_cycle", &UnsteadySettings::steps_per_cycle, IntegerValue{.from = 4},
+           "time steps a cycle")
+      .key("duration", &UnsteadySettings::duration, NumberValue{.from = 0},
+           "t* = 2 V t / length of a step, ramp or table")
+      .key("steps", &UnsteadySettings::steps, IntegerValue{.from = 0}, "number of time steps in the duration")
+      .key("inner_tolerance", &UnsteadySettings::inner_tolerance, NumberValue{.above = 0, .to = 1},
+           "change of the out-of-phase moment between inner iterations, relative to it")
+      .key("max_inner", &UnsteadySettings::max_inner, count, "limit of inner iterations a time step");
+
+  Table(keys, "output", &Case::output)
+      .key("folder", &OutputSettings::folder, TextValue{}, "folder of the run")
+      .default_is("runs/<name of the case file>")
+      .key("flow", &OutputSettings::flow, FlagValue{}, "write flow.vtkhdf")
+      .key("surface", &OutputSettings::surface, FlagValue{}, "write surface.vtkhdf");
+  return keys;
+}
+
+}  // namespace
+
+const std::vector<CaseKey>& case_keys() {
+  static const std::vector<CaseKey> keys = make_keys();
+  return keys;
+}
+
+const CaseKey* find_case_key(std::string_view path) {
+  for (const auto& key : case_keys()) {
+    const auto table = key.table();
+    if (path == key.path && !key.is_family()) return &key;
+    if (key.is_family() && path.size() > table.size() && path.starts_with(table)) return &key;
+  }
+  return nullptr;
+}
+
+}  // namespace alphadot

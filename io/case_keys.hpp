@@ -1,0 +1,43 @@
+// The keys of the case file, described once: parsing, checks, the resolved case and the documentation follow.
+#pragma once
+
+#include <toml++/toml.h>
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/case.hpp"
+#include "core/error.hpp"
+
+namespace alphadot {
+
+/// One key of the case file, or a family of keys ("boundary.*": any name in that table).
+struct CaseKey {
+  std::string path;  ///< "freestream.mach"
+  std::string type;  ///< for people: "number > 0"
+  std::string doc;
+  std::string default_note;  ///< where the default comes from, when it is not a constant
+  bool required = false;
+  bool is_text = false;  ///< takes words without quotes on the command line
+
+  /// Stores the value in the case, or says what is wrong with it (file and line are filled in by the caller).
+  /// `name` is the last part of the path: the patch, for a family.
+  std::function<std::optional<Problem>(std::string_view name, const toml::node& value, Case&)> read;
+  /// The lines "name = value\n" that `read` turns into the same settings.
+  std::function<std::string(const Case&)> write;
+
+  std::string table() const { return path.substr(0, path.size() - name().size()); }  ///< "freestream." or ""
+  std::string name() const { return path.substr(path.rfind('.') + 1); }
+  bool is_family() const { return name() == "*"; }
+};
+
+/// Every key, table by table. To add one: a member in core/case.hpp and a line in case_keys.cpp.
+const std::vector<CaseKey>& case_keys();
+
+/// The key that `path` belongs to, or null.
+const CaseKey* find_case_key(std::string_view path);
+
+}  // namespace alphadot

@@ -1,0 +1,107 @@
+#include "io/case_values.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace alphadot {
+namespace {
+
+/// At most this much of a wrong text is repeated in a message.
+constexpr std::size_t shown = 60;
+
+std::string described(const toml::node& node) {
+  if (const auto* text = node.as_string())
+    return text->get().size() <= shown ? toml_string(text->get())
+                                       : "a text of " + std::to_string(text->get().size()) + " bytes";
+  if (const auto* integer = node.as_integer()) return std::to_string(integer->get());
+  if (const auto* number = node.as_floating_point()) return fmt::format("{}", number->get());
+  if (const auto* flag = node.as_boolean()) return flag->get() ? "true" : "false";
+  if (node.is_table()) return "a table";
+  if (node.is_array()) return fmt::format("an array of {}", node.as_array()->size());
+  return "a date or time";
+}
+
+/// The node as a number, integers included; NaN when it is neither.
+Real number_of(const toml::node& node) {
+  return node.is_number() ? *node.value<double>() : std::numeric_limits<Real>::quiet_NaN();
+}
+
+std::string written(Real value) {
+  std::string text = fmt::format("{}", value);
+  return text.find_first_of(".e") == std::string::npos ? text + ".0" : text;
+}
+
+}  // namespace
+
+MaybeProblem wrong_value(const std::string& expected, const toml::node& node) {
+  return Problem{"", 0, fmt::format("must be {}, not {}", expected, described(node)), ""};
+}
+
+std::string NumberValue::type() const {
+  std::string limits;
+  if (std::isfinite(above)) limits = fmt::format(" > {}", above);
+  if (std::isfinite(from)) limits = fmt::format(" >= {}", from);
+  if (std::isfinite(to)) limits += fmt::format("{} <= {}", limits.empty() ? "" : " and", to);
+  return "a number" + limits;
+}
+
+MaybeProblem NumberValue::read(const toml::node& node, Real& value) const {
+  const Real number = number_of(node);
+  if (!std::isfinite(number) || number <= above || number < from || number > to)
+    return wrong_value(type(), node);
+  value = number;
+  return std::nullopt;
+}
+
+std::string NumberValue::write(Real value) const {
+  return written(value);
+}
+
+std::string IntegerValue::type() const {
+  std::string limits;
+  if (from > std::numeric_limits<int>::min()) limits = fmt::format(" >= {}", from);
+  if (to < std::numeric_limits<int>::max())
+    limits += fmt::format("{} <= {}", limits.empty() ? "" : " and", to);
+  return "an integer" + limits;
+}
+
+MaybeProblem IntegerValue::read(const toml::node& node, int& value) const {
+  const auto integer = node.value_exact<std::int64_t>();
+  if (!integer || *integer < from || *integer > to) return wrong_value(type(), node);
+  value = static_cast<int>(*integer);
+  return std::nullopt;
+}
+
+MaybeProblem FlagValue::read(const toml::node& node, bool& value) const {
+  const auto flag = node.value_exact<bool>();
+  if (!flag) return wrong_value(type(), node);
+  value = *flag;
+  return std::nullopt;
+}
+
+MaybeProblem TextValue::read(const toml::node& node, std::string& value) const {
+  const auto text = node.value_exact<std::string>();
+  if (!text) return wrong_value(type(), node);
+  if (text->empty() && !may_be_empty) return Problem{"", 0, "must not be empty", ""};
+  value = *text;
+  return std::nullopt;
+}
+
+MaybeProblem VectorValue::read(const toml::node& node, Vec3& value) const {
+  const auto* array = node.as_array();
+  if (!array || array->size() != 3) return wrong_value(type(), node);
+  Vec3 vector;
+  for (int i = 0; i < 3; ++i) {
+    vector[i] = number_of((*array)[static_cast<std::size_t>(i)]);
+    if (!std::isfinite(vector[i])) return wrong_value("a number", (*array)[static_cast<std::size_t>(i)]);
+  }
+  value = vector;
+  return std::nullopt;
+}
+
+std::string VectorValue::write(const Vec3& value) const {
+  return fmt::format("[{}, {}, {}]", written(value.x), written(value.y), written(value.z));
+}
+
+}  // namespace alphadot

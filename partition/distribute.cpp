@@ -1,0 +1,50 @@
+#include <algorithm>
+#include <cstddef>
+#include <string>
+
+#include "core/error.hpp"
+#include "partition/build_subdomain.hpp"
+#include "partition/decompose.hpp"
+#include "partition/share.hpp"
+#include "partition/subdomain.hpp"
+
+namespace alphadot {
+
+namespace {
+
+void check_owners(const Mesh& mesh, const std::vector<int>& owner, int ranks) {
+  if (owner.size() != mesh.cells.size())
+    throw InputError(mesh.file, 0,
+                     std::to_string(owner.size()) + " owners are given for " +
+                         std::to_string(mesh.cells.size()) + " cells",
+                     "give one owner a cell");
+  std::vector<char> used(static_cast<std::size_t>(ranks), 0);
+  for (const int rank : owner) {
+    if (rank < 0 || rank >= ranks)
+      throw InputError(mesh.file, 0,
+                       "a cell is owned by rank " + std::to_string(rank) + " of " + std::to_string(ranks),
+                       "run on as many ranks as the partition was made for");
+    used[rank] = 1;
+  }
+  if (const auto empty = std::find(used.begin(), used.end(), 0); empty != used.end())
+    throw InputError(mesh.file, 0, "rank " + std::to_string(empty - used.begin()) + " owns no cell",
+                     "run on as many ranks as the partition was made for");
+}
+
+}  // namespace
+
+Subdomain distribute(const Mesh& mesh, const Communicator& comm, Real scale) {
+  std::vector<int> owner;
+  comm.on_root([&] { owner = decompose(mesh, comm.size()); });
+  return distribute(mesh, owner, comm, scale);
+}
+
+Subdomain distribute(const Mesh& mesh, const std::vector<int>& owner, const Communicator& comm, Real scale) {
+  comm.on_root([&] { check_owners(mesh, owner, comm.size()); });
+  Share share = scatter_shares(mesh, owner, comm);
+  Subdomain domain;
+  comm.on_all([&] { domain = build_subdomain(std::move(share), scale); });
+  return domain;
+}
+
+}  // namespace alphadot

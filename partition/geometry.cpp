@@ -1,0 +1,41 @@
+#include "partition/geometry.hpp"
+
+#include <cstddef>
+#include <utility>
+
+namespace alphadot {
+
+namespace {
+
+/// Sorts the corners by id; true when an odd number of swaps did so.
+template <std::size_t n>
+bool sort_corners(std::array<Vec3, n>& points, std::array<GlobalIndex, n>& ids) {
+  bool odd = false;
+  for (std::size_t i = 1; i < n; ++i)
+    for (std::size_t j = i; j > 0 && ids[j] < ids[j - 1]; --j) {
+      std::swap(ids[j], ids[j - 1]);
+      std::swap(points[j], points[j - 1]);
+      odd = !odd;
+    }
+  return odd;
+}
+
+}  // namespace
+
+// Never inlined: a copy in a loop may be given other fused multiply-adds than the next copy, and differ in
+// the last bit.
+[[gnu::noinline]] TriangleMetrics triangle_metrics(std::array<Vec3, 3> points,
+                                                   std::array<GlobalIndex, 3> ids) {
+  const bool odd = sort_corners(points, ids);
+  const auto& [a, b, c] = points;
+  return {(odd ? -0.5 : 0.5) * cross(b - a, c - a), (1.0 / 3) * (a + b + c)};
+}
+
+[[gnu::noinline]] TetrahedronMetrics tetrahedron_metrics(std::array<Vec3, 4> points,
+                                                         std::array<GlobalIndex, 4> ids) {
+  const bool odd = sort_corners(points, ids);
+  const auto& [a, b, c, d] = points;
+  return {(odd ? -1.0 : 1.0) / 6 * dot(cross(b - a, c - a), d - a), 0.25 * (a + b + c + d)};
+}
+
+}  // namespace alphadot

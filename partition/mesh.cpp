@@ -1,0 +1,235 @@
+#include "partition/mesh.hpp"
+
+#include <fmt/format.h>
+#include <xxhash.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <memory>
+#include <span>
+
+#include "core/error.hpp"
+#include "partition/face_matching.hpp"
+#include "partition/geometry.hpp"
+
+namespace alphadot {
+
+namespace {
+
+/// How often a defect was met, and the lowest id that has it.
+struct Tally {
+  GlobalIndex count = 0, first = 0;
+  void add(GlobalIndex id) {
+    if (count++ == 0 || id < first) first = id;
+  }
+};
+
+/// The triangles of all patches one after the other.
+std::vector<std::array<GlobalIndex, 3>> all_triangles(const std::vector<Patch>& patches) {
+  std::vector<std::array<GlobalIndex, 3>> triangles;
+  for (const auto& patch : patches)
+    triangles.insert(triangles.end(), patch.triangles.begin(), patch.triangles.end());
+  return triangles;
+}
+
+template <std::size_t n>
+bool in_range(const std::array<GlobalIndex, n>& ids, GlobalIndex points) {
+  return std::all_of(ids.begin(), ids.end(), [&](GlobalIndex id) { return id >= 0 && id < points; });
+}
+
+template <std::size_t n>
+bool distinct(std::array<GlobalIndex, n> ids) {
+  std::sort(ids.begin(), ids.end());
+  return std::adjacent_find(ids.begin(), ids.end()) == ids.end();
+}
+
+std::string text(const Vec3& at) {
+  return fmt::format("({:.6g}, {:.6g}, {:.6g})", at.x, at.y, at.z);
+}
+
+/// Gathers the checks' findings.
+class Validator {
+ public:
+  explicit Validator(const Mesh& mesh) : mesh_(mesh), triangles_(all_triangles(mesh.patches)) {}
+
+  void run() {
+    check_sizes();
+    stop_if_problems();  // what follows indexes with the ids
+    check_points();
+    check_ids();
+    stop_if_problems();
+    check_volumes();
+    check_faces();
+    stop_if_problems();
+  }
+
+ private:
+  void check_sizes() {
+    const auto cells = static_cast<GlobalIndex>(mesh_.cells.size());
+    if (cells == 0) problem("the mesh has no tetrahedra", "export the volume mesh, not only its surface");
+    if (std::max(cells, static_cast<GlobalIndex>(triangles_.size())) > max_cells_for_faces)
+      problem(fmt::format("{} cells and {} boundary triangles are more than faces can be numbered for", cells,
+                          triangles_.size()),
+              fmt::format("use at most {} of each", max_cells_for_faces));
+  }
+
+  void check_points() {
+    Tally tally;
+    for (std::size_t i = 0; i < mesh_.points.size(); ++i) {
+      const Vec3& p = mesh_.points[i];
+      if (!(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z)))
+        tally.add(static_cast<GlobalIndex>(i));
+    }
+    if (tally.count > 0)
+      problem(fmt::format("point {} at {} is not finite ({} such points)", tally.first + 1,
+                          text(mesh_.points[tally.first]), tally.count),
+              "write the mesh again; the file may be damaged");
+  }
+
+  void check_ids() {
+    check_ids_of("cell", mesh_.cells);
+    check_ids_of("boundary triangle", triangles_);
+  }
+
+  template <std::size_t n>
+  void check_ids_of(const char* kind, const std::vector<std::array<GlobalIndex, n>>& elements) {
+    const auto points = static_cast<GlobalIndex>(mesh_.points.size());
+    Tally out_of_range, repeated;
+    for (std::size_t i = 0; i < elements.size(); ++i) {
+      if (!in_range(elements[i], points))
+        out_of_range.add(static_cast<GlobalIndex>(i));
+      else if (!distinct(elements[i]))
+        repeated.add(static_cast<GlobalIndex>(i));
+    }
+    const auto listed = [&](const Tally& tally) {
+      std::string out;
+      for (const GlobalIndex id : elements[tally.first])
+        out += fmt::format("{}{}", out.empty() ? "" : " ", id + 1);
+      return out;
+    };
+    if (out_of_range.count > 0)
+      problem(fmt::format("{} {} has the points {}, but there are points 1 to {} only ({} such {}s)", kind,
+                          out_of_range.first + 1, listed(out_of_range), points, out_of_range.count, kind),
+              "write the mesh again; the file may be damaged or cut short");
+    if (repeated.count > 0)
+      problem(fmt::format("{} {} has the points {}, of which two are the same ({} such {}s)", kind,
+                          repeated.first + 1, listed(repeated), repeated.count, kind),
+              "remove collapsed elements in the mesh generator");
+  }
+
+  void check_volumes() {
+    Tally tally;
+    for (std::size_t i = 0; i < mesh_.cells.size(); ++i)
+      if (!(metrics(i).volume > 0)) tally.add(static_cast<GlobalIndex>(i));
+    report_cells(tally, "has no positive volume",
+                 "orient every tetrahedron so that (p1-p0) x (p2-p0) . (p3-p0) > 0, and mend flat ones");
+  }
+
+  void check_faces() {
+    const auto cell_sides = static_cast<Index>(4 * mesh_.cells.size());
+    Tally crowded, overlapping, bare, twice_covered, covered_inside, loose;
+    for_each_face<GlobalIndex>(
+        mesh_.cells, triangles_, mesh_.points.size(), [&](std::span<const Index> sides) {
+          const auto cells =
+              std::find_if(sides.begin(), sides.end(), [&](Index s) { return s >= cell_sides; }) -
+              sides.begin();
+          const auto triangles = static_cast<std::ptrdiff_t>(sides.size()) - cells;
+          const GlobalIndex cell = sides.front() / 4;
+          const GlobalIndex triangle = sides.back() - cell_sides;
+          if (cells > 2) crowded.add(cell);
+          if (cells == 2 && !opposed(sides[0], sides[1])) overlapping.add(cell);
+          if (cells == 1 && triangles == 0) bare.add(cell);
+          if (cells == 1 && triangles > 1) twice_covered.add(triangle);
+          if (cells > 1 && triangles > 0) covered_inside.add(triangle);
+          if (cells == 0) loose.add(triangle);
+        });
+    report_cells(crowded, "shares a face with two or more other cells",
+                 "remove duplicate or overlapping cells");
+    report_cells(overlapping, "lies on the same side of a face as its neighbour", "remove overlapping cells");
+    report_cells(bare, "has a face with neither a second cell nor a boundary triangle",
+                 "put every surface of the volume in a physical group (gmsh) or boundary condition (CGNS), "
+                 "and merge double points");
+    report_triangles(twice_covered, "covers a face that another triangle covers too",
+                     "put each surface in one patch only");
+    report_triangles(covered_inside, "lies between two cells", "leave inner surfaces out of the patches");
+    report_triangles(loose, "is not a face of any cell",
+                     "leave surfaces without a volume next to them out of the patches");
+  }
+
+  /// True when the sides are traversed in opposite senses, i.e. their cells lie on opposite sides of the
+  /// face.
+  bool opposed(Index side_a, Index side_b) const {
+    const auto a = side_points<GlobalIndex>(mesh_.cells, side_a);
+    const auto b = side_points<GlobalIndex>(mesh_.cells, side_b);
+    const auto start = static_cast<std::size_t>(std::find(b.begin(), b.end(), a[0]) - b.begin());
+    return b[(start + 1) % 3] == a[2];
+  }
+
+  TetrahedronMetrics metrics(std::size_t cell) const {
+    const auto& ids = mesh_.cells[cell];
+    std::array<Vec3, 4> points;
+    for (std::size_t i = 0; i < 4; ++i) points[i] = mesh_.points[ids[i]];
+    return tetrahedron_metrics(points, ids);
+  }
+
+  void report_cells(const Tally& tally, const char* what, const char* remedy) {
+    if (tally.count == 0) return;
+    const auto [volume, center] = metrics(static_cast<std::size_t>(tally.first));
+    problem(fmt::format("cell {} at {}, of volume {:.6g}, {} ({} such cases)", tally.first + 1, text(center),
+                        volume, what, tally.count),
+            remedy);
+  }
+
+  void report_triangles(const Tally& tally, const char* what, const char* remedy) {
+    if (tally.count == 0) return;
+    GlobalIndex place = tally.first;  // within its patch
+    auto patch = mesh_.patches.begin();
+    for (; place >= static_cast<GlobalIndex>(patch->triangles.size()); ++patch)
+      place -= static_cast<GlobalIndex>(patch->triangles.size());
+    Vec3 center;
+    for (const GlobalIndex id : triangles_[tally.first]) center += 1.0 / 3 * mesh_.points[id];
+    problem(fmt::format("triangle {} of patch \"{}\" at {} {} ({} such cases)", place + 1, patch->name,
+                        text(center), what, tally.count),
+            remedy);
+  }
+
+  void problem(std::string what, std::string remedy) {
+    problems_.push_back({mesh_.file, 0, std::move(what), std::move(remedy)});
+  }
+
+  void stop_if_problems() {
+    if (!problems_.empty()) throw InputError(std::move(problems_));
+  }
+
+  const Mesh& mesh_;
+  const std::vector<std::array<GlobalIndex, 3>> triangles_;
+  std::vector<Problem> problems_;
+};
+
+}  // namespace
+
+void Mesh::validate() const {
+  Validator(*this).run();
+}
+
+std::string Mesh::hash() const {
+  const std::unique_ptr<XXH64_state_t, decltype(&XXH64_freeState)> state(XXH64_createState(),
+                                                                         &XXH64_freeState);
+  XXH64_reset(state.get(), 0);
+  // Each array after its length, so that no two meshes run together to the same bytes.
+  const auto add = [&](const auto& array) {
+    const auto length = static_cast<GlobalIndex>(array.size());
+    XXH64_update(state.get(), &length, sizeof(length));
+    if (length > 0) XXH64_update(state.get(), array.data(), array.size() * sizeof(array[0]));
+  };
+  add(points);
+  add(cells);
+  for (const auto& patch : patches) {
+    add(patch.name);
+    add(patch.triangles);
+  }
+  return fmt::format("{:016x}", XXH64_digest(state.get()));
+}
+
+}  // namespace alphadot

@@ -1,0 +1,55 @@
+#include "analysis/derivatives.hpp"
+
+#include <array>
+#include <cstddef>
+
+#include "core/error.hpp"
+
+namespace alphadot {
+
+std::string_view name(Variable variable) {
+  constexpr std::array<std::string_view, 9> names = {
+      "alpha", "beta", "p", "q", "r", "alphadot", "betadot", "q_plus_alphadot", "r_minus_betadot"};
+  return names[static_cast<std::size_t>(variable)];
+}
+
+std::string derivative_name(int coefficient, Variable variable) {
+  return std::string(coefficient_names[static_cast<std::size_t>(coefficient)]) + "_" +
+         std::string(name(variable));
+}
+
+namespace {
+
+const CoefficientsOf<Estimate>& column(const DerivativeSet& set, Variable variable,
+                                       std::string_view purpose) {
+  const auto found = set.find(variable);
+  if (found == set.end())
+    throw InputError("", 0,
+                     "the derivatives with respect to " + std::string(name(variable)) +
+                         " are missing: they are needed for " + std::string(purpose),
+                     "compute them in the same run");
+  return found->second;
+}
+
+}  // namespace
+
+DerivativeSet moment_transfer(const DerivativeSet& about_old, Real dx) {
+  constexpr std::string_view purpose = "moving the axis of rotation";
+  DerivativeSet moved = about_old;
+  for (auto& [variable, values] : moved) {
+    if (variable == Variable::q || variable == Variable::q_plus_alphadot)
+      values += -2 * dx * column(about_old, Variable::alpha, purpose);
+    if (variable == Variable::r || variable == Variable::r_minus_betadot)
+      values += 2 * dx * column(about_old, Variable::beta, purpose);
+    values = moment_transfer(values, Vec3{dx, 0, 0});
+  }
+  return moved;
+}
+
+void add_damping_by_subtraction(DerivativeSet& derivatives) {
+  constexpr std::string_view purpose = "the damping by subtraction";
+  derivatives[Variable::q] = column(derivatives, Variable::q_plus_alphadot, purpose) -
+                             column(derivatives, Variable::alphadot, purpose);
+}
+
+}  // namespace alphadot

@@ -1,0 +1,43 @@
+// Derivatives of the six coefficients with respect to the flight variables.
+#pragma once
+
+#include <map>
+#include <string>
+#include <string_view>
+
+#include "analysis/coefficients.hpp"
+#include "analysis/estimate.hpp"
+
+namespace alphadot {
+
+/// What a coefficient is differentiated by: angles in rad, rates times l/2V. The last two are what forced
+/// pitch and forced yaw about a fixed axis yield: X_q + X_alphadot and X_r - X_betadot (r = -betadot there).
+enum class Variable { alpha, beta, p, q, r, alphadot, betadot, q_plus_alphadot, r_minus_betadot };
+
+/// "alpha", "q_plus_alphadot", ...
+std::string_view name(Variable variable);
+
+/// "Cm_alphadot": the name of one entry; `coefficient` is an index as in coefficient_names.
+std::string derivative_name(int coefficient, Variable variable);
+
+/// The columns that are known, one for each variable.
+template <class T>
+using DerivativeSetOf = std::map<Variable, CoefficientsOf<T>>;
+using DerivativeSet = DerivativeSetOf<Estimate>;
+
+/// All derivatives about a centre, which is also the axis of rotation, moved aft by `dx` reference lengths.
+///
+/// Rotation about the new axis is rotation about the old one and a translation of the body by -Omega x dx:
+/// upwards with q dx, to starboard with r dx, hence alpha' = -2 dx q*, beta' = +2 dx r*:
+///   X_q' = X_q - 2 dx X_alpha,  X_r' = X_r + 2 dx X_beta  for all six coefficients, X_p unchanged;
+/// the combined q + alphadot and r - betadot likewise. Then every column is moved as loads are, which gives
+///   Cm_q' = Cm_q + dx CN_q - 2 dx (Cm_alpha + dx CN_alpha).
+/// First order in alpha: the translation is normal to the body axis, so that 1 - cos(alpha) is neglected.
+/// Throws InputError when a pitch (yaw) rate is in the set without alpha (beta).
+DerivativeSet moment_transfer(const DerivativeSet& about_old, Real dx);
+
+/// Adds X_q = (X_q + X_alphadot) - X_alphadot, the paper's way to the damping derivative. All about one
+/// centre. Throws InputError when either column is missing.
+void add_damping_by_subtraction(DerivativeSet& derivatives);
+
+}  // namespace alphadot

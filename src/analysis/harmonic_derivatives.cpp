@@ -1,0 +1,83 @@
+#include "analysis/harmonic_derivatives.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <optional>
+
+#include "core/error.hpp"
+
+namespace alphadot {
+
+namespace {
+
+/// What the sine and cosine parts stand for; `rate_sign` is that of the variable against the angle's rate.
+struct Meaning {
+  std::optional<Variable> in_phase;
+  Variable out_of_phase;
+  Real rate_sign;
+};
+
+Meaning meaning_of(MotionKind motion) {
+  switch (motion) {
+    case MotionKind::plunge:
+      return {Variable::alpha, Variable::alphadot, 1};
+    case MotionKind::pitch:
+      return {Variable::alpha, Variable::q_plus_alphadot, 1};
+    case MotionKind::flap:
+      return {std::nullopt, Variable::q, 1};
+    case MotionKind::sway:
+      return {Variable::beta, Variable::betadot, 1};
+    case MotionKind::yaw:
+      return {Variable::beta, Variable::r_minus_betadot, -1};
+    case MotionKind::roll:
+      return {std::nullopt, Variable::p, 1};
+    default:
+      throw InputError("", 0, "harmonic derivatives: the motion is not harmonic",
+                       "use plunge, pitch, flap, sway, yaw or roll");
+  }
+}
+
+/// The angle's own fit; refuses a history that is not the sine it is said to be.
+HarmonicFit fit_angle(const ForceHistory& history, HarmonicBasis basis) {
+  basis.phase = 0;
+  basis.harmonics = 1;
+  basis.drift = false;
+  const HarmonicFit fit = fit_harmonics(basis, history.time, history.angle);
+  const Real amplitude = std::hypot(fit.in_phase.value, fit.out_of_phase.value);
+  // A prescribed motion is known to round-off; what a text file leaves of it is still far below this.
+  constexpr Real tolerance = 1e-4;
+  if (!(fit.rms <= tolerance * amplitude))
+    throw InputError("", 0,
+                     fmt::format("harmonic derivatives: the angle of the motion is not a sine of reduced "
+                                 "frequency {:g} (misfit {:.2g} of its amplitude)",
+                                 basis.reduced_frequency, fit.rms / amplitude),
+                     "give the reduced frequency k = omega l / 2V of the run, l being its reference length");
+  return fit;
+}
+
+}  // namespace
+
+HarmonicDerivatives harmonic_derivatives(const ForceHistory& history, MotionKind motion,
+                                         HarmonicBasis basis) {
+  const Meaning meaning = meaning_of(motion);
+  const HarmonicFit angle = fit_angle(history, basis);
+  basis.phase = std::atan2(angle.out_of_phase.value, angle.in_phase.value);
+
+  HarmonicDerivatives result;
+  result.mean_angle = angle.mean.value;
+  result.amplitude = std::hypot(angle.in_phase.value, angle.out_of_phase.value);
+  CoefficientsOf<Estimate> slope, rate;
+  for (int c = 0; c < Coefficients::size(); ++c) {
+    result.fits[c] =
+        fit_harmonics(basis, history.time, history.load(c), {}, history.bound(c));
+    slope[c] = 1 / result.amplitude * result.fits[c].in_phase.estimate();
+    rate[c] = meaning.rate_sign / (basis.reduced_frequency * result.amplitude) *
+              result.fits[c].out_of_phase.estimate();
+  }
+  if (meaning.in_phase) result.derivatives[*meaning.in_phase] = slope;
+  result.derivatives[meaning.out_of_phase] = rate;
+  return result;
+}
+
+}  // namespace alphadot

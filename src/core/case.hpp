@@ -1,0 +1,100 @@
+// What a run is asked to do: every key of the case file as plain data with its default.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "core/types.hpp"
+#include "core/vec3.hpp"
+
+namespace alphadot {
+
+enum class FluxKind { roe, van_leer, hllc };
+enum class GradientKind { least_squares, green_gauss };
+enum class LimiterKind { venkatakrishnan, mlp_u2, barth_jespersen, none };
+enum class SchemeKind { lu_sgs, block_lu_sgs, gmres };
+enum class MotionKind { none, plunge, sway, pitch, yaw, roll, flap, step_alpha, ramp_alpha, step_q, table };
+enum class TreatmentKind { field_velocity, rigid_grid, deforming_grid };
+
+/// How a patch of the boundary is treated.
+/// wall: slip wall, counted in the forces. sting: slip wall left out of the forces. base_jet ("jet"): imposes
+/// the free stream, left out of the forces. symmetry: slip plane. farfield: characteristic.
+enum class BoundaryKind { wall, sting, jet, symmetry, farfield };
+
+struct MeshSettings {
+  std::string file;  ///< as resolved against the case file's folder
+  Real scale = 1;    ///< mesh units to the units of [reference]
+};
+
+struct ReferenceSettings {
+  Real length = 1;          ///< d (or c): makes moments and rates dimensionless
+  Real area = 1;            ///< S of the whole configuration, also for a half model
+  Vec3 moment_center;       ///< point about which moments are taken
+  bool half_model = false;  ///< the mesh is the half y >= 0: forces are doubled, CY, Cl and Cn are zero
+};
+
+struct FreestreamSettings {
+  Real mach = 0;
+  Real alpha = 0;  ///< degrees
+  Real beta = 0;   ///< degrees
+  Real gamma = 1.4;
+};
+
+struct SpaceSettings {
+  FluxKind flux = FluxKind::roe;
+  int order = 2;
+  GradientKind gradient = GradientKind::least_squares;
+  LimiterKind limiter = LimiterKind::venkatakrishnan;
+  Real limiter_k = 5;      ///< Venkatakrishnan's K
+  Real entropy_fix = 0.1;  ///< Harten's delta as a share of the spectral radius
+};
+
+struct SteadySettings {
+  SchemeKind scheme = SchemeKind::block_lu_sgs;
+  Real cfl_start = 10, cfl_max = 1e6, cfl_growth = 1.5;
+  int max_iterations = 2000;
+  Real orders = 10;  ///< decades that the density residual must drop
+};
+
+struct MotionSettings {
+  MotionKind kind = MotionKind::none;
+  TreatmentKind treatment = TreatmentKind::field_velocity;
+  Real amplitude = 1;             ///< degrees of alpha, theta or phi; for step_q the reduced rate
+  Real reduced_frequency = 0.01;  ///< omega * length / (2 V)
+  Vec3 axis_point;                ///< rotations are about this point
+  std::string table_file;         ///< for kind = "table"
+};
+
+struct UnsteadySettings {
+  Real cycles = 1.5;  ///< duration of a harmonic motion
+  int steps_per_cycle = 48;
+  Real duration = 0;  ///< t* = 2 V t / length; of a step, ramp or table
+  int steps = 0;      ///< number of steps in `duration`
+  Real inner_tolerance =
+      1e-3;  ///< change of the out-of-phase moment between inner iterations, relative to it
+  int max_inner = 100;
+};
+
+struct OutputSettings {
+  std::string folder;   ///< default: runs/<name of the case file>
+  bool flow = true;     ///< write flow.vtkhdf
+  bool surface = true;  ///< write surface.vtkhdf
+};
+
+/// A whole case. `boundary` maps the mesh's patch names to their treatment.
+struct Case {
+  std::string title;
+  std::string file;  ///< path of the case file, for messages
+  MeshSettings mesh;
+  ReferenceSettings reference;
+  FreestreamSettings freestream;
+  std::map<std::string, BoundaryKind> boundary;
+  SpaceSettings space;
+  SteadySettings steady;
+  MotionSettings motion;
+  UnsteadySettings unsteady;
+  OutputSettings output;
+};
+
+}  // namespace alphadot

@@ -1,0 +1,29 @@
+#include "core/error.hpp"
+
+#include <utility>
+
+namespace alphadot {
+
+std::string Problem::text() const {
+  std::string out;
+  if (!file.empty()) out += file + (line > 0 ? ":" + std::to_string(line) : "") + ": ";
+  out += what;
+  if (!remedy.empty()) out += "; " + remedy;
+  return out;
+}
+
+namespace {
+std::string joined(const std::vector<Problem>& problems) {
+  std::string out;
+  for (const auto& problem : problems) out += (out.empty() ? "" : "\n") + problem.text();
+  return out;
+}
+}  // namespace
+
+InputError::InputError(std::vector<Problem> problems)
+    : std::runtime_error(joined(problems)), problems_(std::move(problems)) {}
+
+InputError::InputError(std::string file, int line, std::string what, std::string remedy)
+    : InputError({Problem{std::move(file), line, std::move(what), std::move(remedy)}}) {}
+
+}  // namespace alphadot

@@ -1,0 +1,84 @@
+#include "solver/implicit_iteration.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "solver/update.hpp"
+
+namespace alphadot {
+
+ImplicitIteration::ImplicitIteration(const Discretization& discretization, const Communicator& comm,
+                                     std::unique_ptr<LinearSolver> solver, const Vec3& moment_center)
+    : discretization_(discretization),
+      comm_(comm),
+      solver_(std::move(solver)),
+      moment_center_(moment_center),
+      flow_(discretization.domain(), comm),
+      residual_(discretization, comm),
+      values_(static_cast<std::size_t>(discretization.domain().owned_cells)),
+      update_(values_.size()) {}
+
+void ImplicitIteration::set_uniform(const Primitive<Real>& state) {
+  std::ranges::fill(flow_.values(), state);
+}
+
+void ImplicitIteration::evaluate(const Conditions<Real>& conditions, int order) {
+  order_ = order;
+  residual_.evaluate(flow_, conditions, order, values_);
+}
+
+FlowReport ImplicitIteration::report() const {
+  FlowReport out;
+  out.loads = wall_loads(discretization_, residual_, flow_, order_, moment_center_);
+  std::vector<Real> buffer{0, 0, static_cast<Real>(residual_.fallback_faces())};
+  for (const auto& value : values_) {
+    buffer[0] += value[0] * value[0];
+    buffer[1] += std::isfinite(value[0] + value[1] + value[2] + value[3] + value[4]) ? 0 : 1;
+  }
+  for (const auto& load : out.loads)
+    for (int i = 0; i < 3; ++i) {
+      buffer.push_back(load.force[i]);
+      buffer.push_back(load.moment[i]);
+    }
+  comm_.sum(buffer);
+  out.density_residual = std::sqrt(buffer[0] / static_cast<Real>(discretization_.domain().global_cells));
+  out.physical = buffer[1] == 0 && std::isfinite(buffer[0]);
+  out.fallback_faces = static_cast<GlobalIndex>(buffer[2]);
+  auto next = buffer.begin() + 3;
+  for (auto& load : out.loads) {
+    for (int i = 0; i < 3; ++i) {
+      load.force[i] = *next++;
+      load.moment[i] = *next++;
+    }
+    out.total.force += load.force;
+    out.total.moment += load.moment;
+  }
+  return out;
+}
+
+Index ImplicitIteration::advance() {
+  ++iterations_;
+  solver_->solve(values_, update_);
+  Index capped = 0;
+  for (Index cell = 0; cell < discretization_.domain().owned_cells; ++cell) {
+    const Real share = capped_share(flow_[cell], update_[cell]);
+    if (share < 1) {
+      ++capped;
+      update_[cell] = share * update_[cell];
+    }
+    flow_[cell] += update_[cell];
+  }
+  return capped;
+}
+
+void ImplicitIteration::undo() {
+  for (Index cell = 0; cell < discretization_.domain().owned_cells; ++cell) flow_[cell] -= update_[cell];
+}
+
+std::size_t ImplicitIteration::bytes() const {
+  return discretization_.domain().bytes() + discretization_.bytes() + flow_.bytes() + residual_.bytes() +
+         solver_->bytes() + values_.size() * sizeof(values_[0]) + update_.size() * sizeof(update_[0]);
+}
+
+}  // namespace alphadot

@@ -1,0 +1,69 @@
+// One implicit iteration, shared by the steady and the dual-time driver.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "core/communicator.hpp"
+#include "solver/forces.hpp"
+#include "solver/linear_solver.hpp"
+#include "solver/residual.hpp"
+
+namespace alphadot {
+
+/// What one residual evaluation says about the whole flow, the same on every rank.
+struct FlowReport {
+  Real density_residual = 0;  ///< root of the mean square over all cells of the net mass outflow
+  std::vector<Load> loads;    ///< of every patch
+  Load total;                 ///< their sum
+  GlobalIndex fallback_faces = 0;
+  bool physical = true;  ///< every residual is finite
+};
+
+/// Unknowns, residual and update of one rank, and the steps of an iteration on them.
+class ImplicitIteration {
+ public:
+  ImplicitIteration(const Discretization& discretization, const Communicator& comm,
+                    std::unique_ptr<LinearSolver> solver, const Vec3& moment_center);
+
+  FlowField<Real>& flow() { return flow_; }
+  const FlowField<Real>& flow() const { return flow_; }
+  const Residual<Real>& residual() const { return residual_; }
+  const Discretization& discretization() const { return discretization_; }
+  const Communicator& communicator() const { return comm_; }
+  std::span<Conserved<Real>> residual_values() { return values_; }
+
+  void set_uniform(const Primitive<Real>& state);
+
+  /// Evaluates R(W) into residual_values().
+  void evaluate(const Conditions<Real>& conditions, int order);
+  /// Norm, loads and flags of the latest evaluation: one all-reduce.
+  FlowReport report() const;
+  void linearise(const Conditions<Real>& conditions, const TimeTerms& time) {
+    solver_->linearise(flow_, conditions, time);
+  }
+  /// Solves for an update from residual_values() and adds it to the flow, capped cell by cell. Returns the
+  /// number of capped cells on this rank.
+  Index advance();
+  /// Takes back the latest advance().
+  void undo();
+
+  GlobalIndex iterations() const { return iterations_; }
+  /// Bytes of this rank's arrays, mesh included.
+  std::size_t bytes() const;
+
+ private:
+  const Discretization& discretization_;
+  const Communicator& comm_;
+  std::unique_ptr<LinearSolver> solver_;
+  Vec3 moment_center_;
+  FlowField<Real> flow_;
+  Residual<Real> residual_;
+  std::vector<Conserved<Real>> values_;  // [owned_cells]
+  std::vector<Primitive<Real>> update_;  // [owned_cells] as added, after capping
+  int order_ = 1;
+  GlobalIndex iterations_ = 0;
+};
+
+}  // namespace alphadot

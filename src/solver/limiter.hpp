@@ -1,0 +1,26 @@
+// Slope limiters: by how much a gradient is reduced so that reconstruction makes no new extrema.
+#pragma once
+
+#include <cmath>
+
+#include "core/case.hpp"
+#include "core/dual.hpp"
+
+namespace alphadot {
+
+/// Venkatakrishnan 1995, equation (18): smooth in `delta` (the reconstructed change) against `room` (the
+/// change to the extremum of the neighbourhood on the same side); `epsilon2` = (K h)^3 times the square of
+/// the variable's scale lets small wiggles pass. Both signs of delta and room alike.
+template <class T>
+T venkatakrishnan(const T& delta, const T& room, Real epsilon2) {
+  const T top = room * room + epsilon2 + 2.0 * delta * room;
+  return top / (top + delta * (2.0 * delta - room));
+}
+
+/// Barth & Jespersen 1989: the largest factor up to one that stays within the extremum.
+template <class T>
+T barth_jespersen(const T& delta, const T& room) {
+  return value_of(delta) == 0 || room / delta >= T(1) ? T(1) : T(room / delta);
+}
+
+}  // namespace alphadot

@@ -1,0 +1,47 @@
+// The spatial operator: net flux out of every cell.
+#pragma once
+
+#include <span>
+
+#include "solver/conditions.hpp"
+#include "solver/discretization.hpp"
+#include "solver/flow_field.hpp"
+#include "solver/reconstruction.hpp"
+
+namespace alphadot {
+
+/// R(W) of the semi-discrete equations V dU/dt + R = 0. T is Real, or a dual number for the tangent.
+template <class T>
+class Residual {
+ public:
+  Residual(const Discretization& discretization, const Communicator& comm);
+
+  /// Fills residual[owned_cells] with the net flux out of each cell plus the momentum source of rotating
+  /// axes; brings the ghosts of `flow` up to date. `order` 1 leaves the gradients out.
+  void evaluate(FlowField<T>& flow, const Conditions<T>& conditions, int order,
+                std::span<Conserved<T>> residual);
+
+  /// Gradients of the latest second-order evaluation.
+  const Reconstruction<T>& reconstruction() const { return reconstruction_; }
+  /// Faces on this rank where the latest evaluation fell back to first order to keep density and pressure
+  /// positive.
+  Index fallback_faces() const { return fallback_faces_; }
+  /// State of a cell carried to one of its faces.
+  Primitive<T> face_state(const FlowField<T>& flow, Index cell, const Vec3& face_center, int order) const;
+
+  std::size_t bytes() const { return reconstruction_.bytes(); }
+
+ private:
+  void interior_faces(const FlowField<T>& flow, const Conditions<T>& conditions, int order, Index begin,
+                      Index end, std::span<Conserved<T>> residual);
+  void boundary_faces(const FlowField<T>& flow, const Conditions<T>& conditions, int order,
+                      std::span<Conserved<T>> residual);
+  void rotating_axes(const FlowField<T>& flow, const Conditions<T>& conditions,
+                     std::span<Conserved<T>> residual);
+
+  const Discretization& discretization_;
+  Reconstruction<T> reconstruction_;
+  Index fallback_faces_ = 0;
+};
+
+}  // namespace alphadot
