@@ -1,6 +1,7 @@
 // The words by which a case file names the alternatives of an enumeration.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -74,6 +75,14 @@ std::string word_of(E value) {
   for (const auto& word : words_of<E>)
     if (word.value == value) return std::string(word.text);
   return "?";
+}
+
+/// The value that `text` names, if any.
+template <class E>
+std::optional<E> value_of(std::string_view text) {
+  for (const auto& word : words_of<E>)
+    if (word.text == text) return word.value;
+  return std::nullopt;
 }
 
 }  // namespace alphadot

@@ -84,18 +84,21 @@ void make_run_folder(const std::string& folder) {
   fs::remove(probe, error);
 }
 
+Replacement::~Replacement() {
+  unlink(temporary_.c_str());  // after a commit there is none
+}
+
+void Replacement::commit() {
+  sync(temporary_, O_RDWR);
+  if (std::rename(temporary_.c_str(), path_.c_str()) != 0)
+    throw InputError(path_, 0, std::string("cannot be replaced: ") + std::strerror(errno));
+  sync(folder_of(path_), O_RDONLY | O_DIRECTORY);
+}
+
 void replace_file(const std::string& path, const std::function<void(const std::string& temporary)>& write) {
-  const std::string temporary = path + ".part";
-  try {
-    write(temporary);
-    sync(temporary, O_RDWR);
-    if (std::rename(temporary.c_str(), path.c_str()) != 0)
-      throw InputError(path, 0, std::string("cannot be replaced: ") + std::strerror(errno));
-  } catch (...) {
-    unlink(temporary.c_str());
-    throw;
-  }
-  sync(folder_of(path), O_RDONLY | O_DIRECTORY);
+  Replacement replacement(path);
+  write(replacement.temporary());
+  replacement.commit();
 }
 
 void replace_file_with(const std::string& path, std::string_view content) {

@@ -5,6 +5,7 @@
 #include <functional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace alphadot {
 
@@ -12,10 +13,26 @@ namespace alphadot {
 /// InputError with the reason and a remedy. Not collective: for one rank.
 void make_run_folder(const std::string& folder);
 
-/// Calls `write` with a temporary path beside `path` and puts the file it made there in the place of `path`:
-/// fsync of the file, rename, fsync of the folder. Readers see the old file or the new one, never a part.
-/// When anything fails the temporary file is removed, `path` stays as it was and the error goes on
-/// (InputError for those of the system).
+/// A file on its way to take the place of `path`: written at temporary(), then committed. Readers of `path`
+/// see the old file or the new one, never a part. Without a commit the temporary file is removed and `path`
+/// stays.
+class Replacement {
+ public:
+  explicit Replacement(std::string path) : path_(std::move(path)), temporary_(path_ + ".part") {}
+  ~Replacement();
+  Replacement(const Replacement&) = delete;
+  Replacement& operator=(const Replacement&) = delete;
+
+  const std::string& temporary() const { return temporary_; }
+  /// fsync of the file, rename, fsync of the folder. Throws InputError.
+  void commit();
+
+ private:
+  std::string path_, temporary_;
+};
+
+/// Replaces the file `path` by one that `write` makes at the temporary path it is given. What `write` throws
+/// goes on.
 void replace_file(const std::string& path, const std::function<void(const std::string& temporary)>& write);
 
 /// The same with the whole content in memory.

@@ -18,8 +18,8 @@ void read_physical_tags(Scanner& in, Take&& take) {
 void read_entity(State& state, int dimension) {
   Scanner& in = state.in;
   const int tag = in.read_int("an entity tag");
-  // A point has its place here, others their bounding box.
-  for (int i = 0; i < (dimension == 0 ? 3 : 6); ++i) in.read_real("a bound of an entity");
+  // A point has its place here, others their bounding box, which is beyond all numbers when they are empty.
+  for (int i = 0; i < (dimension == 0 ? 3 : 6); ++i) in.skip_real("a bound of an entity");
   read_physical_tags(in, [&](int physical) {
     if (dimension == 2) state.surface_groups.emplace_back(tag, physical);
   });
@@ -40,7 +40,7 @@ void read_node_block(State& state, std::vector<GlobalIndex>& tags) {
   for (GlobalIndex i = 0; i < count; ++i) tags.push_back(in.read_long("a node tag"));
   for (GlobalIndex i = 0; i < count; ++i) {
     state.mesh.points().push_back(read_coordinates(in));
-    for (int k = 0; parametric && k < std::min(dimension, 3); ++k) in.read_real("a parametric coordinate");
+    for (int k = 0; parametric && k < std::min(dimension, 3); ++k) in.skip_real("a parametric coordinate");
   }
 }
 

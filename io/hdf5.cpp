@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cstring>
 #include <filesystem>
 
 #include "core/error.hpp"
+#include "io/hdf5_driver.hpp"
 
 namespace alphadot::hdf5 {
 namespace {
@@ -63,10 +65,17 @@ Handle without_times(hid_t kind) {
   return list;
 }
 
+/// Links that make the groups on their way: "total/CA".
+Handle with_groups_on_the_way() {
+  Handle list(H5Pcreate(H5P_LINK_CREATE), H5Pclose);
+  H5Pset_create_intermediate_group(list.id(), 1);
+  return list;
+}
+
 Handle access_list() {
   Handle list(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   H5Pset_fclose_degree(list.id(), H5F_CLOSE_STRONG);
-  H5Pset_file_locking(list.id(), true, true);  // go on where the file system has no locks
+  H5Pset_file_locking(list.id(), false, true);  // files are replaced whole, never written while read
   return list;
 }
 
@@ -237,6 +246,7 @@ void Dataset::append(std::span<const T> values) {
 template <Element T>
 std::vector<T> Dataset::read(GlobalIndex first_row, GlobalIndex count) const {
   const std::string what = "cannot read " + name_;
+  check_storage();
   const Handle source = rows_space(first_row, count);
   const GlobalIndex size = count * columns_;
   const Handle target = space_of(size, 0, size);
@@ -273,8 +283,8 @@ void Dataset::check_storage() const {
 Group Group::create_group(const std::string& name) const {
   const Handle list = without_times(H5P_GROUP_CREATE);
   return {file_, inside(name),
-          owned(H5Gcreate2(handle_.id(), name.c_str(), H5P_DEFAULT, list.id(), H5P_DEFAULT), H5Gclose, file_,
-                "cannot create group " + inside(name))};
+          owned(H5Gcreate2(handle_.id(), name.c_str(), with_groups_on_the_way().id(), list.id(), H5P_DEFAULT),
+                H5Gclose, file_, "cannot create group " + inside(name))};
 }
 
 Group Group::group(const std::string& name) const {
@@ -299,10 +309,10 @@ std::vector<std::string> Group::names() const {
 }
 
 template <Element T>
-Dataset Group::create(const std::string& name, GlobalIndex rows, GlobalIndex columns) const {
+Dataset Group::create_dataset(const std::string& name, GlobalIndex rows, GlobalIndex columns) const {
   const Handle list = without_times(H5P_DATASET_CREATE);
   H5Pset_fill_time(list.id(), H5D_FILL_TIME_NEVER);
-  return create_dataset(name, type_of<T>(), space_of(rows, columns, rows), list);
+  return add_dataset(name, type_of<T>(), space_of(rows, columns, rows), list);
 }
 
 template <Element T>
@@ -311,36 +321,35 @@ Dataset Group::create_growing(const std::string& name, GlobalIndex columns) cons
   const hsize_t width = static_cast<hsize_t>(std::max<GlobalIndex>(columns, 1));
   const std::array<hsize_t, 2> chunk{std::max<hsize_t>(1, 8192 / width), width};
   H5Pset_chunk(list.id(), columns > 0 ? 2 : 1, chunk.data());
-  return create_dataset(name, type_of<T>(), space_of(0, columns, -1), list);
+  return add_dataset(name, type_of<T>(), space_of(0, columns, -1), list);
 }
 
-Dataset Group::create_dataset(const std::string& name, hid_t type, const Handle& space,
-                              const Handle& list) const {
+Dataset Group::add_dataset(const std::string& name, hid_t type, const Handle& space,
+                           const Handle& list) const {
   return {file_, inside(name),
-          owned(H5Dcreate2(handle_.id(), name.c_str(), type, space.id(), H5P_DEFAULT, list.id(), H5P_DEFAULT),
+          owned(H5Dcreate2(handle_.id(), name.c_str(), type, space.id(), with_groups_on_the_way().id(),
+                           list.id(), H5P_DEFAULT),
                 H5Dclose, file_, "cannot create dataset " + inside(name))};
 }
 
 Dataset Group::dataset(const std::string& name) const {
-  Dataset found{file_, inside(name),
-                owned(H5Dopen2(handle_.id(), name.c_str(), H5P_DEFAULT), H5Dclose, file_,
-                      "no dataset " + inside(name))};
-  found.check_storage();
-  return found;
+  return {file_, inside(name),
+          owned(H5Dopen2(handle_.id(), name.c_str(), H5P_DEFAULT), H5Dclose, file_,
+                "no dataset " + inside(name))};
 }
 
 template <Element T>
 Dataset Group::write(const std::string& name, std::span<const T> values, GlobalIndex columns) const {
-  Dataset target =
-      create<T>(name, static_cast<GlobalIndex>(values.size()) / std::max<GlobalIndex>(columns, 1), columns);
+  Dataset target = create_dataset<T>(
+      name, static_cast<GlobalIndex>(values.size()) / std::max<GlobalIndex>(columns, 1), columns);
   target.write(0, values);
   return target;
 }
 
 void Group::write_text(const std::string& name, const std::string& text) const {
   const Handle type = text_type(text.size());
-  const Dataset target = create_dataset(name, type.id(), Handle(H5Screate(H5S_SCALAR), H5Sclose),
-                                        without_times(H5P_DATASET_CREATE));
+  const Dataset target = add_dataset(name, type.id(), Handle(H5Screate(H5S_SCALAR), H5Sclose),
+                                     without_times(H5P_DATASET_CREATE));
   check(H5Dwrite(target.handle_.id(), type.id(), H5S_ALL, H5S_ALL, H5P_DEFAULT, text.c_str()), file_,
         "cannot write " + inside(name));
 }
@@ -348,20 +357,25 @@ void Group::write_text(const std::string& name, const std::string& text) const {
 // --- File
 // -----------------------------------------------------------------------------------------------------------
 
-File::File(const std::string& path, Handle file, Handle root)
-    : Group(path, "/", std::move(root)), file_handle_(std::move(file)) {}
+File::File(const std::string& path, Handle file, Handle root, std::unique_ptr<int> write_error)
+    : Group(path, "/", std::move(root)),
+      write_error_(std::move(write_error)),
+      file_handle_(std::move(file)) {}
 
 File::~File() {
-  handle_.close();
+  handle_.close();  // the root group, before the file
 }
 
 File File::create(const std::string& path) {
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
-  const Handle creation = without_times(H5P_FILE_CREATE);
-  Handle file = owned(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, creation.id(), access_list().id()), H5Fclose,
-                      path, "cannot be created");
+  auto error = std::make_unique<int>(0);
+  const Handle creation = without_times(H5P_FILE_CREATE), access = access_list();
+  use_deferring_driver(access.id(), *error);
+  Handle file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, creation.id(), access.id()), H5Fclose);
+  if (file.id() < 0 && *error != 0)
+    throw InputError(path, 0, std::string("cannot be created: ") + std::strerror(*error));
   Handle root = owned(H5Gopen2(file.id(), "/", H5P_DEFAULT), H5Gclose, path, "cannot be created");
-  return {path, std::move(file), std::move(root)};
+  return {path, std::move(file), std::move(root), std::move(error)};
 }
 
 File File::open(const std::string& path) {
@@ -371,24 +385,27 @@ File File::open(const std::string& path) {
   Handle file = owned(H5Fopen(path.c_str(), H5F_ACC_RDONLY, access_list().id()), H5Fclose, path,
                       "not an HDF5 file, or an incomplete one");
   Handle root = owned(H5Gopen2(file.id(), "/", H5P_DEFAULT), H5Gclose, path, "has no root group");
-  return {path, std::move(file), std::move(root)};
+  return {path, std::move(file), std::move(root), std::make_unique<int>(0)};
 }
 
 void File::close() {
-  const bool root_closed = handle_.close() >= 0;
-  if (file_handle_.close() < 0 || !root_closed) fail(file_, "cannot be completed");
+  handle_.close();
+  check(file_handle_.close(), file_, "cannot be completed");
+  if (*write_error_ != 0)
+    throw InputError(file_, 0, std::string("cannot be written: ") + std::strerror(*write_error_),
+                     "check free space and quota");
 }
 
 // The types of element that the functions above are compiled for.
-#define ALPHADOT_HDF5_ELEMENT(T)                                                          \
-  template void Object::write_attribute<T>(const std::string&, std::span<const T>, bool); \
-  template std::vector<T> Object::attributes<T>(const std::string&) const;                \
-  template T Object::attribute<T>(const std::string&) const;                              \
-  template void Dataset::write<T>(GlobalIndex, std::span<const T>);                       \
-  template void Dataset::append<T>(std::span<const T>);                                   \
-  template std::vector<T> Dataset::read<T>(GlobalIndex, GlobalIndex) const;               \
-  template Dataset Group::create<T>(const std::string&, GlobalIndex, GlobalIndex) const;  \
-  template Dataset Group::create_growing<T>(const std::string&, GlobalIndex) const;       \
+#define ALPHADOT_HDF5_ELEMENT(T)                                                                 \
+  template void Object::write_attribute<T>(const std::string&, std::span<const T>, bool);        \
+  template std::vector<T> Object::attributes<T>(const std::string&) const;                       \
+  template T Object::attribute<T>(const std::string&) const;                                     \
+  template void Dataset::write<T>(GlobalIndex, std::span<const T>);                              \
+  template void Dataset::append<T>(std::span<const T>);                                          \
+  template std::vector<T> Dataset::read<T>(GlobalIndex, GlobalIndex) const;                      \
+  template Dataset Group::create_dataset<T>(const std::string&, GlobalIndex, GlobalIndex) const; \
+  template Dataset Group::create_growing<T>(const std::string&, GlobalIndex) const;              \
   template Dataset Group::write<T>(const std::string&, std::span<const T>, GlobalIndex) const;
 ALPHADOT_HDF5_ELEMENT(double)
 ALPHADOT_HDF5_ELEMENT(float)

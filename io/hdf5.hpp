@@ -5,6 +5,7 @@
 #include <hdf5.h>
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string>
 #include <type_traits>
@@ -26,7 +27,7 @@ class Handle {
   using Close = herr_t (*)(hid_t);
 
   Handle() = default;
-  Handle(hid_t id, Close close) : id_(id), close_(close) {}
+  Handle(hid_t id, Close close_function) : id_(id), close_(close_function) {}
   Handle(Handle&& other) noexcept : id_(std::exchange(other.id_, H5I_INVALID_HID)), close_(other.close_) {}
   Handle& operator=(Handle&& other) noexcept {
     std::swap(id_, other.id_);
@@ -97,7 +98,7 @@ class Dataset : public Object {
   /// Adds rows at the end of a dataset made with `create_growing`.
   template <Element T>
   void append(std::span<const T> values);
-  /// Reads `count` whole rows from `first_row` on, converted to T.
+  /// Reads `count` whole rows from `first_row` on, converted to T. Only from files opened for reading.
   template <Element T>
   std::vector<T> read(GlobalIndex first_row, GlobalIndex count) const;
   /// Reads everything.
@@ -118,6 +119,7 @@ class Dataset : public Object {
   GlobalIndex rows_ = 1, columns_ = 1;
 };
 
+/// Names may be paths inside the group; the groups on the way to something new are made.
 class Group : public Object {
  public:
   Group create_group(const std::string& name) const;
@@ -127,7 +129,7 @@ class Group : public Object {
 
   /// A dataset of fixed size, to be written in pieces. columns = 0: one-dimensional.
   template <Element T>
-  Dataset create(const std::string& name, GlobalIndex rows, GlobalIndex columns = 0) const;
+  Dataset create_dataset(const std::string& name, GlobalIndex rows, GlobalIndex columns = 0) const;
   /// A dataset without rows that `append` extends.
   template <Element T>
   Dataset create_growing(const std::string& name, GlobalIndex columns = 0) const;
@@ -147,15 +149,16 @@ class Group : public Object {
       : Object(std::move(file), std::move(name), std::move(handle)) {}
 
  private:
-  Dataset create_dataset(const std::string& name, hid_t type, const Handle& space, const Handle& list) const;
+  Dataset add_dataset(const std::string& name, hid_t type, const Handle& space, const Handle& list) const;
   std::string inside(const std::string& name) const { return (name_ == "/" ? "" : name_) + "/" + name; }
 };
 
 /// An HDF5 file, as its root group.
 class File : public Group {
  public:
-  static File create(const std::string& path);  ///< replaces a file of that name
-  static File open(const std::string& path);    ///< for reading
+  /// Replaces a file of that name. Errors of writing (a full disk) show at close().
+  static File create(const std::string& path);
+  static File open(const std::string& path);  ///< for reading
   File(File&&) = default;
   ~File();
   /// Writes out everything and closes, telling of failure as the destructor cannot. Ends the use of its
@@ -163,7 +166,8 @@ class File : public Group {
   void close();
 
  private:
-  File(const std::string& path, Handle file, Handle root);
+  File(const std::string& path, Handle file, Handle root, std::unique_ptr<int> write_error);
+  std::unique_ptr<int> write_error_;  ///< errno of the first failed write, noted by the driver
   Handle file_handle_;
 };
 

@@ -169,4 +169,11 @@ Real Scanner::read_text_real(const char* meaning) {
   return read_text<Real>(meaning, "a number");
 }
 
+void Scanner::skip_real(const char* meaning) {
+  if (encoding_ != Encoding::text)
+    read_binary<Real>(meaning);
+  else if (read_word().empty())
+    fail_at_end(meaning);
+}
+
 }  // namespace alphadot

@@ -31,7 +31,7 @@ struct RecordShape {
 
 /// Reads on from one place of `content`, which must outlive the scanner. Every mistake is an InputError that
 /// names the file and its line (text) or byte (binary). Nothing is allocated on the way of success, and
-/// read_count() lets through only counts that the rest of the file can hold.
+/// counts are let through only when the rest of the file can hold as many records.
 class Scanner {
  public:
   /// `comment` starts a remark that lasts to the end of the line; '\0' for none.
@@ -55,6 +55,8 @@ class Scanner {
     if (!std::isfinite(value)) fail_not_finite(meaning);
     return value;
   }
+  /// Passes over a real whatever its value.
+  void skip_real(const char* meaning);
 
   /// A number of records of at least `shape` each, which the rest of the file must be long enough to hold.
   GlobalIndex read_int_count(const char* meaning, const RecordShape& shape) {

@@ -73,7 +73,8 @@ Mesh Su2Reader::read() {
   if (static_cast<GlobalIndex>(mesh_.points().size()) != point_count_)
     in_.fail("a second NPOIN section", rewrite);
   if (!is_3d_) in_.fail("there is no NDIME= 3", "give the dimension of the mesh");
-  if (marker_count_ && *marker_count_ != markers_found_)
+  if (!marker_count_) in_.fail("there is no NMARK section", "write the boundary as markers");
+  if (*marker_count_ != markers_found_)
     in_.fail("NMARK announces " + std::to_string(*marker_count_) + " markers, but there are " +
                  std::to_string(markers_found_),
              rewrite);

@@ -6,6 +6,7 @@ namespace alphadot {
 
 namespace {
 constexpr int most_parts = 16;  ///< of one key
+constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
 
 bool is_control(char c) {
   return (c >= 0 && c < 0x20) || c == 0x7f;
@@ -26,15 +27,21 @@ std::string toml_string(std::string_view text) {
 
 Problem unsafe_line(std::string_view text) {
   int line = 1, dots = 0;
-  char quote = 0;
+  char quote = 0;      // that is open
+  char before = '\n';  // the last character outside quotes that is not a blank
   bool comment = false;
-  for (std::size_t i = 0; i < text.size(); ++i) {
+  for (std::size_t i = text.starts_with(byte_order_mark) ? byte_order_mark.size() : 0; i < text.size(); ++i) {
     const char c = text[i];
     if (c == '\n') {
       ++line;
       dots = 0;
       quote = 0;
+      before = c;
       comment = false;
+    } else if (c == '\r' || c == '\t' || c == ' ') {
+      continue;
+    } else if (is_control(c)) {
+      return {"", line, "a control character", "is it text?"};
     } else if (comment) {
       continue;
     } else if (quote) {
@@ -42,16 +49,24 @@ Problem unsafe_line(std::string_view text) {
         quote = 0;
       else if (c == '\\' && quote == '"' && text.substr(i + 1, 1) != "\n")
         ++i;
-    } else if (c == '"' || c == '\'') {
-      if (text.substr(i, 3) == std::string(3, c))
-        return {"", line, "multi-line text is not allowed here", ""};
-      quote = c;
     } else if (c == '#') {
       comment = true;
-    } else if (c == '.') {
-      if (++dots >= most_parts) return {"", line, "the key has too many parts", ""};
-    } else if (c == '=' || c == ',' || c == '[' || c == ']' || c == '{' || c == '}') {
-      dots = 0;
+    } else {
+      if (c == '"' || c == '\'') {
+        if (text.substr(i, 3) == std::string(3, c))
+          return {"", line, "multi-line text is not allowed here", ""};
+        if (std::string_view("\n=,.[{").find(before) == std::string_view::npos)
+          return {"", line, "a quote in the middle of a key or value", ""};
+        quote = c;
+      } else if (static_cast<unsigned char>(c) > 127) {
+        return {"", line, "a character that is not ASCII",
+                "such characters may stand in quotes and comments only"};
+      } else if (c == '.') {
+        if (++dots >= most_parts) return {"", line, "the key has too many parts", ""};
+      } else if (std::string_view("=,[]{}").find(c) != std::string_view::npos) {
+        dots = 0;
+      }
+      before = c;
     }
   }
   return {};

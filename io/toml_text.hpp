@@ -11,10 +11,15 @@ namespace alphadot {
 /// `text` as a TOML string on one line, in quotes.
 std::string toml_string(std::string_view text);
 
-/// What makes `text` unsafe to hand to the TOML library, with its line; line 0 when nothing does. The library
-/// bounds the depth of arrays and inline tables but not of dotted keys, and destroys its tree recursively:
-/// keys of more than 16 parts are refused, and so is multi-line text, without which one pass over the quotes
-/// is exact.
+/// What makes `text` unsafe to hand to the TOML library (toml++ 3.3), with its line; line 0 when nothing
+/// does.
+/// - Keys of more than 16 parts: the library bounds the depth of arrays and inline tables but not of dotted
+///   keys, and destroys its tree recursively.
+/// - Control characters, and those that are not ASCII outside quotes and comments: TOML has no use for them,
+/// and some
+///   lead the library into code that it declares unreachable.
+/// - Quotes where none can open, and multi-line text: without it one pass over the quotes of each line is
+/// exact.
 Problem unsafe_line(std::string_view text);
 
 }  // namespace alphadot

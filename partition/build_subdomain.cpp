@@ -53,7 +53,7 @@ class Builder {
 
   void number_cells() {
     const Adjacency graph = dual_graph(share_.cell_points, share_.points.size());
-    std::vector<Index> order = upstream_cuthill_mckee(graph, centers_of_owned());
+    std::vector<Index> order = downstream_order(graph, centers_of_owned());
     move_interior_first(order);
 
     // Ghosts by owner; then those across a face, so that an exchange of them alone is one range; then by

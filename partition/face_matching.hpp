@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <compare>
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -53,6 +54,7 @@ void for_each_face(std::span<const std::array<PointId, 4>> cells,
   struct Key {
     PointId middle, largest;
     Index side;
+    auto operator<=>(const Key&) const = default;
     bool same_face(const Key& other) const { return middle == other.middle && largest == other.largest; }
   };
   std::vector<Key> keys;
@@ -65,11 +67,7 @@ void for_each_face(std::span<const std::array<PointId, 4>> cells,
       std::sort(points.begin(), points.end());
       keys.push_back({points[1], points[2], side});
     }
-    std::sort(keys.begin(), keys.end(), [](const Key& a, const Key& b) {
-      return a.middle != b.middle     ? a.middle < b.middle
-             : a.largest != b.largest ? a.largest < b.largest
-                                      : a.side < b.side;
-    });
+    std::sort(keys.begin(), keys.end());
     for (std::size_t first = 0, last = 0; first < keys.size(); first = last) {
       face.clear();
       for (; last < keys.size() && keys[last].same_face(keys[first]); ++last) face.push_back(keys[last].side);

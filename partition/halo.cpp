@@ -47,7 +47,10 @@ void HaloExchangeBytes::start() {
 }
 
 void HaloExchangeBytes::wait() {
+  if (requests_.empty()) return;
+  const Real begin = MPI_Wtime();
   MPI_Waitall(static_cast<int>(requests_.size()), requests_.data(), MPI_STATUSES_IGNORE);
+  wait_seconds_ += MPI_Wtime() - begin;
 }
 
 std::size_t HaloExchangeBytes::bytes_sent() const {

@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <span>
+#include <stdexcept>
 #include <type_traits>
 #include <vector>
 
@@ -17,19 +18,21 @@ namespace alphadot {
 /// Which ghosts an exchange fills: all of them, or only those that share a face with an owned cell.
 enum class HaloWidth { points, faces };
 
-/// Fills the ghosts of one array of cell values of `stride` bytes each. Bound to the array's address for
-/// life.
+/// Fills the ghosts of one array of cell values of `stride` bytes each. Bound to the array's address, and to
+/// the domain's send lists, for life. Several exchanges may be under way at once; ranks must start them in
+/// the same order.
 class HaloExchangeBytes {
  public:
   HaloExchangeBytes(const Subdomain& domain, const Communicator& comm, HaloWidth width, std::byte* values,
                     std::size_t stride);
-  ~HaloExchangeBytes();
+  ~HaloExchangeBytes();  ///< waits for an exchange that is under way
   HaloExchangeBytes(const HaloExchangeBytes&) = delete;
   HaloExchangeBytes& operator=(const HaloExchangeBytes&) = delete;
 
-  void start();                    ///< packs and sends the owned values that others need
-  void wait();                     ///< returns when the ghosts of this rank hold their owners' values
-  std::size_t bytes_sent() const;  ///< each start() sends this many
+  void start();  ///< packs and sends the owned values that others need
+  void wait();   ///< returns when the ghosts of this rank hold their owners' values
+  Real wait_seconds() const { return wait_seconds_; }  ///< spent in wait() so far
+  std::size_t bytes_sent() const;                      ///< each start() sends this many
 
  private:
   std::vector<std::vector<std::byte>> send_buffers_;
@@ -37,6 +40,7 @@ class HaloExchangeBytes {
   std::vector<MPI_Request> requests_;
   const std::byte* values_;
   std::size_t stride_;
+  Real wait_seconds_ = 0;
 };
 
 /// Typed front of HaloExchangeBytes for an array of [total_cells] values (or, with `components`, of
@@ -49,10 +53,17 @@ class HaloExchange : public HaloExchangeBytes {
   HaloExchange(const Subdomain& domain, const Communicator& comm, std::span<T> values,
                HaloWidth width = HaloWidth::points)
       : HaloExchangeBytes(domain, comm, width, reinterpret_cast<std::byte*>(values.data()),
-                          sizeof(T) * (values.size() / static_cast<std::size_t>(domain.total_cells))) {}
+                          stride(values.size(), static_cast<std::size_t>(domain.total_cells))) {}
   void exchange() {
     start();
     wait();
+  }
+
+ private:
+  static std::size_t stride(std::size_t values, std::size_t cells) {
+    if (values == 0 || values % cells != 0)
+      throw std::logic_error("a halo exchange needs a value for every local cell");
+    return sizeof(T) * (values / cells);
   }
 };
 

@@ -1,37 +1,33 @@
 #include "partition/ordering.hpp"
 
 #include <algorithm>
-#include <numeric>
 
 namespace alphadot {
 
-std::vector<Index> upstream_cuthill_mckee(const Adjacency& graph, std::span<const Vec3> center) {
+std::vector<Index> downstream_order(const Adjacency& graph, std::span<const Vec3> center) {
   const Index count = static_cast<Index>(center.size());
-  const auto x = [&](Index cell) { return center[cell].x; };
-  const auto degree = [&](Index cell) { return graph.begin[cell + 1] - graph.begin[cell]; };
+  const auto upstream = [&](Index a, Index b) {
+    return center[a].x != center[b].x ? center[a].x < center[b].x : a < b;
+  };
+  std::vector<Index> waiting_for(center.size(), 0);  // neighbours upstream that have no number yet
+  for (Index cell = 0; cell < count; ++cell)
+    for (const Index neighbour : graph[cell])
+      if (neighbour < count && upstream(neighbour, cell)) ++waiting_for[cell];
 
-  std::vector<Index> seeds(center.size());
-  std::iota(seeds.begin(), seeds.end(), 0);
-  std::sort(seeds.begin(), seeds.end(), [&](Index a, Index b) { return x(a) != x(b) ? x(a) < x(b) : a < b; });
+  std::vector<Index> ready;  // a stack
+  for (Index cell = 0; cell < count; ++cell)
+    if (waiting_for[cell] == 0) ready.push_back(cell);
+  std::sort(ready.begin(), ready.end(), [&](Index a, Index b) { return upstream(b, a); });
 
   std::vector<Index> order;
   order.reserve(center.size());
-  std::vector<char> numbered(center.size(), 0);
-  const auto number = [&](Index cell) {
-    numbered[cell] = 1;
+  while (!ready.empty()) {
+    const Index cell = ready.back();
+    ready.pop_back();
     order.push_back(cell);
-  };
-  std::size_t next = 0;
-  for (const Index seed : seeds) {  // more than one is used only where the part is in several pieces
-    if (numbered[seed]) continue;
-    number(seed);
-    for (; next < order.size(); ++next) {
-      const auto first = static_cast<std::ptrdiff_t>(order.size());
-      for (const Index neighbour : graph[order[next]])
-        if (neighbour < count && !numbered[neighbour]) number(neighbour);
-      std::sort(order.begin() + first, order.end(),
-                [&](Index a, Index b) { return degree(a) != degree(b) ? degree(a) < degree(b) : a < b; });
-    }
+    for (const Index neighbour : graph[cell])
+      if (neighbour < count && upstream(cell, neighbour) && --waiting_for[neighbour] == 0)
+        ready.push_back(neighbour);
   }
   return order;
 }

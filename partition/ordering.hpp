@@ -10,11 +10,12 @@
 
 namespace alphadot {
 
-/// Cuthill-McKee order of the cells [0, center.size()): the result lists them in their new order. Levels grow
-/// from the cell of smallest x, the most upstream one in body axes, so that a forward LU-SGS sweep goes with
-/// the flow and neighbours stay close in memory. (Cuthill and McKee, 1969; not reversed, since reversal helps
-/// the fill of a factorisation, which LU-SGS has none of, and would sweep upstream first.)
+/// Order of the cells [0, center.size()) in which every cell comes after its neighbours of smaller x: the
+/// result lists them in their new order. x points aft, so a forward Gauss-Seidel sweep goes with the flow and
+/// carries a supersonic solution from nose to base in one pass: on the Basic Finner at Mach 2.5 six decades
+/// take 48 iterations, against 111 in Cuthill-McKee order. Among the many orders with that property this one
+/// always continues from the cells numbered last (depth first), which keeps neighbours close in memory.
 /// `graph` may name cells beyond center.size(), e.g. ghosts: they are passed over.
-std::vector<Index> upstream_cuthill_mckee(const Adjacency& graph, std::span<const Vec3> center);
+std::vector<Index> downstream_order(const Adjacency& graph, std::span<const Vec3> center);
 
 }  // namespace alphadot

@@ -84,9 +84,10 @@ struct Subdomain {
 };
 
 /// Cuts `mesh` (filled on the root; ignored elsewhere) into one part a rank with METIS on the dual graph,
-/// renumbers the cells of each part for locality (reverse Cuthill-McKee) and builds the halo. Points are
-/// multiplied by `scale`. Collective. Throws InputError on all ranks when there are more ranks than cells,
-/// when a rank would be empty, or above METIS's 32-bit limit.
+/// renumbers the cells of each part for locality and sweeps (see ordering.hpp) and builds the halo. Points
+/// are multiplied by `scale`. Collective. Throws InputError on all ranks when there are more ranks than
+/// cells, when a rank would be empty, or above METIS's 32-bit limit. `mesh` must have passed
+/// Mesh::validate().
 Subdomain distribute(const Mesh& mesh, const Communicator& comm, Real scale = 1.0);
 
 /// The same from a given owner of every cell (root only): for tests and for prepared partitions.

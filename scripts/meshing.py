@@ -1,12 +1,16 @@
 """Tools shared by the mesh generators of the cases: from the tetrahedra of one sector to a checked .msh file.
 
-A generator meshes one sector with gmsh, names its boundary triangles, and then uses `oriented`, `split_corners`,
-`relaxed`, `mirrored`, `check` and `write`. Needs Debian's python3-numpy, and python3-gmsh.
+A generator draws one sector in gmsh, meshes it with `mesh_sector`, which names the boundary triangles, and unfolds it with
+`mirrored`; `run` is its command line, and checks and writes the mesh. Needs Debian's python3-numpy, and python3-gmsh.
 """
 
 from __future__ import annotations
 
+import argparse
 import os
+import sys
+import time
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -180,6 +184,30 @@ def is_symmetric(mesh: TetMesh, axis: int) -> bool:
     return np.array_equal(cells[np.lexsort(cells.T)], image_cells[np.lexsort(image_cells.T)])
 
 
+MODELS = {"quarter": 0.25, "half": 0.5, "full": 1.0}  # shares of the whole
+
+
+def unfolded(quarter: TetMesh, model: str) -> tuple[TetMesh, list[str]]:
+    """A model of `MODELS` from the quarter y, z >= 0, with its symmetry planes in the last but one patch `symmetry`, and a report.
+
+    The quarter's planes are the patches `symmetry_y` and `symmetry_z`; the half model is y >= 0.
+    """
+    axes = {"quarter": {}, "half": {"z": 2}, "full": {"z": 2, "y": 1}}[model]
+    mesh = quarter
+    for name, axis in axes.items():
+        mesh = mirrored(mesh, axis, f"symmetry_{name}")
+    patches = {name: patch for name, patch in mesh.patches.items() if name not in ("symmetry_y", "symmetry_z", "farfield")}
+    planes = [mesh.patches[name] for name in ("symmetry_y", "symmetry_z") if name in mesh.patches]
+    if planes:
+        patches["symmetry"] = np.concatenate(planes)
+    patches["farfield"] = mesh.patches["farfield"]
+    mesh = TetMesh(mesh.points, mesh.tets, patches)
+    for name, axis in axes.items():
+        if not is_symmetric(mesh, axis):
+            raise MeshError(f"the mesh is not its own mirror image about {name} = 0")
+    return mesh, [f"mirror image about {name} = 0: identical bit for bit" for name in axes]
+
+
 def dihedral_angles(mesh: TetMesh) -> np.ndarray:
     """The six dihedral angles of every tetrahedron, (m, 6), in degrees."""
     p = mesh.points[mesh.tets]
@@ -237,6 +265,52 @@ def relaxed(mesh: TetMesh, below: float = 0.4, sweeps: int = 3) -> TetMesh:
     return TetMesh(points, mesh.tets, mesh.patches)
 
 
+def prepare_gmsh(size: Callable[[int, int, float, float, float], float]) -> None:
+    """Make gmsh follow `size` (dimension, tag, x, y, z) -> cell size alone, and give the same mesh for the same input."""
+    options = {
+        "General.NumThreads": 1, "Mesh.RandomSeed": 1,
+        "Mesh.MeshSizeExtendFromBoundary": 0, "Mesh.MeshSizeFromPoints": 0, "Mesh.MeshSizeFromCurvature": 0,
+        "Mesh.Algorithm": 6, "Mesh.Algorithm3D": 1, "Mesh.OptimizeThreshold": 0.6,
+    }  # fmt: skip
+    for name, value in options.items():
+        gmsh.option.setNumber(name, value)
+    gmsh.model.mesh.setSizeCallback(size)
+
+
+def gmsh_points() -> tuple[np.ndarray, np.ndarray]:
+    """The points (n, 3) of the current gmsh mesh, and the row of each of gmsh's node tags."""
+    tags, coordinates, _ = gmsh.model.mesh.getNodes()
+    row = np.zeros(int(tags.max()) + 1, dtype=np.int64)
+    row[tags.astype(np.int64)] = np.arange(len(tags))
+    return coordinates.reshape(-1, 3).copy(), row
+
+
+def mesh_sector(
+    size: Callable[[int, int, float, float, float], float], patch_name: Callable[[np.ndarray], str], planes: dict[str, int]
+) -> TetMesh:
+    """Mesh the current gmsh model, one volume, and remove it.
+
+    `patch_name` tells the patch of a CAD face from all its mesh points (n, 3). `planes`: name -> axis of the patches that are
+    symmetry planes; their points are moved exactly onto axis = 0. No cell has two boundary faces.
+    """
+    if len(gmsh.model.getEntities(3)) != 1:
+        raise MeshError("the fluid is not one volume")
+    prepare_gmsh(size)
+    gmsh.model.mesh.generate(3)
+    gmsh.model.mesh.removeSizeCallback()
+    points, row = gmsh_points()
+    parts: dict[str, list[np.ndarray]] = {}
+    for _, face in gmsh.model.getEntities(2):
+        triangles = row[gmsh.model.mesh.getElementsByType(2, face)[1].astype(np.int64)].reshape(-1, 3)
+        parts.setdefault(patch_name(points[triangles.ravel()]), []).append(triangles)
+    tets = row[gmsh.model.mesh.getElementsByType(4)[1].astype(np.int64)].reshape(-1, 4)
+    gmsh.model.remove()
+    mesh = TetMesh(points, tets, {name: np.concatenate(patch) for name, patch in parts.items()})
+    for name, axis in planes.items():
+        points[mesh.patches[name], axis] = 0.0
+    return relaxed(split_corners(oriented(mesh)))
+
+
 def check(mesh: TetMesh) -> list[str]:
     """Check the invariants and return the lines of a report; raises MeshError when one of them is broken."""
     volume = volumes(mesh)
@@ -267,6 +341,39 @@ def check(mesh: TetMesh) -> list[str]:
         f"radius ratio: smallest {ratio.min():.4f}, median {np.median(ratio):.3f}, in tenths {histogram.tolist()}",
         f"cells with 2, 3, 4 faces on walls or symmetry planes: {corner[2]}, {corner[3]}, {corner[4]}",
     ]
+
+
+def patch_report(mesh: TetMesh, exact: dict[str, float]) -> list[str]:
+    """One line a patch, with its area beside the exact one (in the units of the points, squared) where that is given."""
+    lines = []
+    for name, patch in mesh.patches.items():
+        area = np.linalg.norm(area_vectors(mesh.points, patch), axis=1).sum()
+        known = f", exact {exact[name]:.6f} ({100 * (area / exact[name] - 1):+.3f} %)" if name in exact else ""
+        lines.append(f"{name}: {len(patch)} triangles, area {area:.6f}{known}")
+    return lines
+
+
+def write_su2(mesh: TetMesh, path: Path) -> None:
+    """Write an SU2 native file (text), with a marker for each patch; it appears under its name only when it is complete."""
+    partial = path.with_name(path.stem + ".part.su2")
+    try:
+        with open(partial, "w") as file:
+
+            def section(head: str, kind: int, nodes: np.ndarray) -> None:
+                file.write(f"{head}= {len(nodes)}\n")
+                np.savetxt(file, np.column_stack([np.full(len(nodes), kind), nodes]), fmt="%d")
+
+            file.write("NDIME= 3\n")
+            section("NELEM", 10, mesh.tets)  # the types of VTK: 10 tetrahedron, 5 triangle
+            file.write(f"NPOIN= {len(mesh.points)}\n")
+            np.savetxt(file, mesh.points, fmt="%.17g")
+            file.write(f"NMARK= {len(mesh.patches)}\n")
+            for name, patch in mesh.patches.items():
+                file.write(f"MARKER_TAG= {name}\n")
+                section("MARKER_ELEMS", 5, patch)
+        os.replace(partial, path)
+    finally:
+        partial.unlink(missing_ok=True)
 
 
 def write(mesh: TetMesh, path: Path, version: str = "4.1", ascii: bool = False) -> None:
@@ -320,3 +427,48 @@ def read(path: Path) -> TetMesh:
             mesh.patches[gmsh.model.getPhysicalName(dimension, group)] = nodes
     gmsh.model.remove()
     return mesh
+
+
+def command_line(doc: str, levels: dict[str, float], unit: str) -> argparse.ArgumentParser:
+    """The options that every generator has; `levels`: name -> cell size h in `unit`."""
+    parser = argparse.ArgumentParser(description=doc.splitlines()[0], epilog=f"Lengths are in units of the {unit}.")
+    sizes = parser.add_mutually_exclusive_group()
+    sizes.add_argument("--level", choices=levels, default="coarse", help="named size (default: coarse)")
+    known = ", ".join(f"{name} {size}" for name, size in levels.items())
+    sizes.add_argument("--size", type=float, metavar="S", help=f"cell size h instead of a level's: {known}")
+    parser.add_argument("--format", choices=("4.1", "2.2", "su2"), default="4.1", help="Gmsh version (default: 4.1), or SU2")
+    parser.add_argument("--ascii", action="store_true", help="Gmsh text instead of binary")
+    parser.add_argument("-o", "--output", type=Path, required=True, metavar="FILE", help="FILE.msh, or FILE.su2")
+    return parser
+
+
+def run(
+    parser: argparse.ArgumentParser, levels: dict[str, float], build: Callable[[float, argparse.Namespace], tuple[TetMesh, list[str]]]
+) -> None:
+    """The program of a generator: `build(h, arguments)` gives the mesh and the case's own lines of the report."""
+    arguments = parser.parse_args()
+    h = levels[arguments.level] if arguments.size is None else arguments.size
+    smallest, largest = 0.5 * min(levels.values()), 2.0 * max(levels.values())
+    suffix, folder = ".su2" if arguments.format == "su2" else ".msh", arguments.output.resolve().parent
+    if not smallest <= h <= largest:
+        parser.error(f"--size {h} is outside {smallest} to {largest}")
+    if arguments.output.suffix != suffix:
+        parser.error(f"the output '{arguments.output}' must end in {suffix}")
+    if not os.access(folder, os.W_OK):
+        parser.error(f"cannot write in the folder '{folder}'")
+    start = time.perf_counter()
+    gmsh.initialize(readConfigFiles=False)  # a user's settings would change the mesh
+    gmsh.option.setNumber("General.Terminal", 0)
+    try:
+        mesh, own = build(h, arguments)
+        lines = check(mesh) + own
+        if arguments.format == "su2":
+            write_su2(mesh, arguments.output)
+        else:
+            write(mesh, arguments.output, arguments.format, arguments.ascii)
+    except Exception as error:  # gmsh raises bare Exception
+        sys.exit(f"{parser.prog}: {error}")
+    finally:
+        gmsh.finalize()
+    print(f"{arguments.output}: h = {h}, {time.perf_counter() - start:.1f} s")
+    print("\n".join(lines))

@@ -1,5 +1,7 @@
 #include "analysis/derivatives.hpp"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <cstddef>
 
@@ -13,9 +15,8 @@ std::string_view name(Variable variable) {
   return names[static_cast<std::size_t>(variable)];
 }
 
-std::string derivative_name(int coefficient, Variable variable) {
-  return std::string(coefficient_names[static_cast<std::size_t>(coefficient)]) + "_" +
-         std::string(name(variable));
+std::string derivative_name(std::string_view coefficient, Variable variable) {
+  return fmt::format("{}_{}", coefficient, name(variable));
 }
 
 namespace {
@@ -25,8 +26,8 @@ const CoefficientsOf<Estimate>& column(const DerivativeSet& set, Variable variab
   const auto found = set.find(variable);
   if (found == set.end())
     throw InputError("", 0,
-                     "the derivatives with respect to " + std::string(name(variable)) +
-                         " are missing: they are needed for " + std::string(purpose),
+                     fmt::format("the derivatives with respect to {} are missing: they are needed for {}",
+                                 name(variable), purpose),
                      "compute them in the same run");
   return found->second;
 }

@@ -17,8 +17,8 @@ enum class Variable { alpha, beta, p, q, r, alphadot, betadot, q_plus_alphadot, 
 /// "alpha", "q_plus_alphadot", ...
 std::string_view name(Variable variable);
 
-/// "Cm_alphadot": the name of one entry; `coefficient` is an index as in coefficient_names.
-std::string derivative_name(int coefficient, Variable variable);
+/// The name of one entry: "Cm" by alphadot is "Cm_alphadot".
+std::string derivative_name(std::string_view coefficient, Variable variable);
 
 /// The columns that are known, one for each variable.
 template <class T>

@@ -61,6 +61,7 @@ HarmonicFit fit_angle(const ForceHistory& history, HarmonicBasis basis) {
 HarmonicDerivatives harmonic_derivatives(const ForceHistory& history, MotionKind motion,
                                          HarmonicBasis basis) {
   const Meaning meaning = meaning_of(motion);
+  history.validate();
   const HarmonicFit angle = fit_angle(history, basis);
   basis.phase = std::atan2(angle.out_of_phase.value, angle.in_phase.value);
 
@@ -69,8 +70,7 @@ HarmonicDerivatives harmonic_derivatives(const ForceHistory& history, MotionKind
   result.amplitude = std::hypot(angle.in_phase.value, angle.out_of_phase.value);
   CoefficientsOf<Estimate> slope, rate;
   for (int c = 0; c < Coefficients::size(); ++c) {
-    result.fits[c] =
-        fit_harmonics(basis, history.time, history.load(c), {}, history.bound(c));
+    result.fits[c] = fit_harmonics(basis, history.time, history.load(c), {}, history.bound(c));
     slope[c] = 1 / result.amplitude * result.fits[c].in_phase.estimate();
     rate[c] = meaning.rate_sign / (basis.reduced_frequency * result.amplitude) *
               result.fits[c].out_of_phase.estimate();

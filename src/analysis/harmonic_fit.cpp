@@ -18,7 +18,7 @@ Estimate FittedAmplitude::estimate() const {
 
 namespace {
 
-using Eigen::Index;
+using Size = Eigen::Index;
 using Eigen::VectorXd;
 
 [[noreturn]] void refuse(const std::string& what, const std::string& remedy) {
@@ -33,15 +33,15 @@ struct Window {
 
 Eigen::Map<const VectorXd> tail_of(std::span<const Real> values, std::ptrdiff_t first) {
   const auto tail = values.subspan(static_cast<std::size_t>(first));
-  return {tail.data(), static_cast<Index>(tail.size())};
+  return {tail.data(), static_cast<Size>(tail.size())};
 }
 
 /// Half the distance between each sample's neighbours: the trapezoidal rule.
 VectorXd step_weights(const VectorXd& time) {
-  const Index n = time.size();
+  const Size n = time.size();
   VectorXd weights(n);
-  for (Index i = 0; i < n; ++i)
-    weights(i) = (time(std::min(i + 1, n - 1)) - time(std::max<Index>(i - 1, 0))) / 2;
+  for (Size i = 0; i < n; ++i)
+    weights(i) = (time(std::min(i + 1, n - 1)) - time(std::max<Size>(i - 1, 0))) / 2;
   return weights;
 }
 
@@ -64,9 +64,9 @@ Window window_of(const HarmonicBasis& basis, std::span<const Real> time, std::sp
   const auto first = std::ranges::lower_bound(time, window.start - 1e-9 * period) - time.begin();
   window.time = tail_of(time, first);
   window.y = tail_of(y, first);
-  const Index n = window.time.size();
+  const Size n = window.time.size();
   Real widest_step = window.time(0) - window.start;
-  for (Index i = 1; i < n; ++i) widest_step = std::max(widest_step, window.time(i) - window.time(i - 1));
+  for (Size i = 1; i < n; ++i) widest_step = std::max(widest_step, window.time(i) - window.time(i - 1));
   if (widest_step * basis.harmonics > period / 4)
     refuse(fmt::format("a step of {:.3f} cycles is too long for harmonic {}", widest_step / period,
                        basis.harmonics),
@@ -109,12 +109,12 @@ Eigen::Vector2d half_cycle_scatter(const HarmonicBasis& basis, const Window& win
   const Real half_period = pi / basis.reduced_frequency;
   const auto parts = static_cast<int>(2 * window.cycles + 1e-6);
   Eigen::Matrix2Xd shift(2, parts);
-  Index begin = 0;
+  Size begin = 0;
   for (int part = 0; part < parts; ++part) {
     const Real end_time = window.start + (part + 1 - 1e-9) * half_period;
-    Index end = begin;
+    Size end = begin;
     while (end < time.size() && (part == parts - 1 || time(end) < end_time)) ++end;
-    const Index n = end - begin;
+    const Size n = end - begin;
     shift.col(part) = least_squares(matrix.block(begin, 1, n, 2), residual.segment(begin, n),
                                     window.weights.segment(begin, n))
                           .parameters;

@@ -43,11 +43,13 @@ struct Polyline {
   }
 };
 
-void check(std::span<const Real> time, std::span<const Real> y) {
+void check(std::span<const Real> time, std::span<const Real> y, std::span<const Real> bounds) {
   const auto finite = [](Real value) { return std::isfinite(value); };
-  if (time.size() != y.size() || time.size() < 12)
-    throw InputError("", 0, "step response: fewer than 12 samples, or not one value a sample",
-                     "take more time steps");
+  if (time.size() != y.size() || (!bounds.empty() && bounds.size() != time.size()))
+    throw InputError("", 0, "step response: times, signal and bounds differ in length",
+                     "give one of each a sample");
+  if (time.size() < 12)
+    throw InputError("", 0, "step response: fewer than 12 samples", "take more time steps");
   if (!std::ranges::all_of(y, finite) || !std::ranges::all_of(time, finite))
     throw InputError("", 0, "step response: the signal or its times are not finite",
                      "look for the step at which the run diverged");
@@ -59,7 +61,7 @@ void check(std::span<const Real> time, std::span<const Real> y) {
 }  // namespace
 
 StepFit fit_step(std::span<const Real> time, std::span<const Real> y, std::span<const Real> bounds) {
-  check(time, y);
+  check(time, y, bounds);
   const Polyline response(time, y, 1);
   const Real end = time.back(), h = end / 10;
   std::array<Real, 3> mean;
@@ -68,8 +70,10 @@ StepFit fit_step(std::span<const Real> time, std::span<const Real> y, std::span<
   const Real change = mean[2] - mean[1];
   const Real rho = mean[1] != mean[0] ? change / (mean[1] - mean[0]) : 0;
   const Real series = rho > 0 && rho < 0.8 ? rho / (1 - rho) : 0;  // rho + rho^2 + ...
+  const Real final = mean[2] + change * series;
+  const auto [low, high] = std::minmax({mean[0], mean[1], mean[2], final});
   StepFit fit;
-  fit.final = {mean[2] + change * series, std::max(std::abs(change), std::abs(change) * series)};
+  fit.final = {final, std::max(1.5 * (high - low), rho >= 0.8 ? 9 * std::abs(change) : 0)};
   fit.tail = change * series * h * series;
 
   const auto deficit = [&](const Polyline& line) { return fit.final.value * end - line.integral(0, end); };
@@ -89,6 +93,7 @@ DerivativeSet step_derivatives(const ForceHistory& history, MotionKind motion, c
   if (motion != MotionKind::step_alpha && motion != MotionKind::step_q)
     throw InputError("", 0, "step response: the motion is not a step", "use step_alpha or step_q");
   if (step == 0) throw InputError("", 0, "step response: the step is zero", "give motion.amplitude a value");
+  history.validate();
   CoefficientsOf<Estimate> slope, rate;
   for (int c = 0; c < initial.size(); ++c) {
     const StepFit fit = fit_step(history.time, history.load(c), history.bound(c));

@@ -16,22 +16,23 @@ struct StepFit {
   Real tail = 0;     ///< share of `deficit` that lies beyond the record
 };
 
-/// Integrates the response `y` at `time` (t* >= 0, increasing, at least 12 samples); the step is at t* = 0 and a
-/// sample there holds the value just after it. Before the first sample the response is taken as constant.
+/// Integrates the response `y` at `time` (t* >= 0, increasing, at least 12 samples); the step is at t* = 0
+/// and a sample there holds the value just after it. Before the first sample the response is taken as
+/// constant.
 ///
-/// X_final and the tail: the means m1, m2, m3 of the last three tenths of the record. When they approach a limit
-/// geometrically, rho = (m3 - m2) / (m2 - m1) in (0, 0.8), the response ends as an exponential, for which
-/// X_final = m3 + (m3 - m2) rho / (1 - rho) and tail = (X_final - m3) h rho / (1 - rho) hold exactly, h being a
-/// tenth of the record. Otherwise X_final = m3 and there is no tail.
-/// Uncertainty: error of X_final (the larger of its last change |m3 - m2| and its extrapolation |X_final - m3|)
-/// times the length of the record; the whole tail; what halving the number of samples changes; and the worst
-/// case of `bounds` (largest error of each sample; may be empty).
-/// Throws InputError for too few, unordered or not finite samples.
+/// X_final and the tail: the means m1, m2, m3 of the last three tenths of the record. When they approach a
+/// limit geometrically, rho = (m3 - m2) / (m2 - m1) in (0, 0.8), the response ends as an exponential, for
+/// which X_final = m3 + (m3 - m2) rho / (1 - rho) and tail = (X_final - m3) h rho / (1 - rho) hold exactly, h
+/// being a tenth of the record. Otherwise X_final = m3 and there is no tail. Uncertainty of X_final: half
+/// again the range of the three means and X_final; when rho >= 0.8, nine times the last change at least, for
+/// the response may still be on its way. Of the deficit: that times the length of the record, the whole tail,
+/// and what halving the number of samples changes. Both: the worst case of `bounds` (largest error of each
+/// sample; may be empty). Throws InputError for too few, unordered or not finite samples.
 StepFit fit_step(std::span<const Real> time, std::span<const Real> y, std::span<const Real> bounds = {});
 
-/// Derivatives from a step of size `step`: rad for step_alpha, reduced rate q* = q l/2V for step_q; `initial` are
-/// the loads before it. With X_alphadot = -(2V/l) times the integral of (X_final - X) dt per unit step (linear
-/// superposition of steps, to first order in frequency):
+/// Derivatives from a step of size `step`: rad for step_alpha, reduced rate q* = q l/2V for step_q; `initial`
+/// are the loads before it. With X_alphadot = -(2V/l) times the integral of (X_final - X) dt per unit step
+/// (linear superposition of steps, to first order in frequency):
 ///   step_alpha: alpha and alphadot;  step_q: q (rotation with alpha held).
 /// Throws InputError as fit_step does, for another motion and for a step of zero.
 DerivativeSet step_derivatives(const ForceHistory& history, MotionKind motion, const Coefficients& initial,

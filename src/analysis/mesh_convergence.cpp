@@ -13,8 +13,8 @@ namespace alphadot {
 
 namespace {
 
-/// Solves e32 / e21 = r21^p (r32^p - 1) / (r21^p - 1) for p > 0 by bisection: the right side grows with p, from
-/// ln r32 / ln r21 at p = 0. No value when the levels do not converge monotonically.
+/// Solves e32 / e21 = r21^p (r32^p - 1) / (r21^p - 1) for p > 0 by bisection: the right side grows with p,
+/// from ln r32 / ln r21 at p = 0. No value when the levels do not converge monotonically.
 std::optional<Real> observed_order(Real ratio_of_changes, Real r21, Real r32) {
   const auto misfit = [&](Real p) {
     const Real a = std::pow(r21, p);
@@ -43,8 +43,8 @@ std::vector<MeshLevel> finest_first(std::span<const MeshLevel> levels) {
 MeshConvergence mesh_convergence(std::span<const MeshLevel> levels, int dimensions, Real formal_order) {
   const auto level = finest_first(levels);
   const auto ratio = [&](std::size_t i) {
-    const Real r = std::pow(static_cast<Real>(level[i].cells) / static_cast<Real>(level[i + 1].cells),
-                            1.0 / dimensions);
+    const Real r =
+        std::pow(static_cast<Real>(level[i].cells) / static_cast<Real>(level[i + 1].cells), 1.0 / dimensions);
     if (r < 1.05)
       throw InputError("", 0,
                        fmt::format("mesh convergence: {} and {} cells differ too little", level[i + 1].cells,
@@ -53,10 +53,8 @@ MeshConvergence mesh_convergence(std::span<const MeshLevel> levels, int dimensio
     return r;
   };
   const Real r21 = ratio(0), e21 = level[1].value - level[0].value;
-  MeshConvergence result{.fine = {level[0].value, 0},
-                         .extrapolated = level[0].value,
-                         .order = formal_order,
-                         .safety_factor = 3};
+  MeshConvergence result{
+      .fine = {level[0].value, 0}, .extrapolated = level[0].value, .order = formal_order, .safety_factor = 3};
   Real change = std::abs(e21);
   bool converging = true;
   if (level.size() == 3) {
@@ -66,7 +64,7 @@ MeshConvergence mesh_convergence(std::span<const MeshLevel> levels, int dimensio
     converging = result.observed || (e21 == 0 && e32 == 0);
     if (order) {
       result.order = std::min(*order, formal_order);
-      if (*order >= 0.5 * formal_order) result.safety_factor = 1.25;
+      if (*order >= 0.4 * formal_order) result.safety_factor = 1.25;
     } else {
       change = std::max({change, std::abs(e32), std::abs(e32 + e21)});
     }

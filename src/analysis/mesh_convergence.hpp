@@ -14,21 +14,22 @@ struct MeshLevel {
 };
 
 struct MeshConvergence {
-  Estimate fine;          ///< finest value with its grid convergence index, absolute
-  Real extrapolated = 0;  ///< Richardson's value at h = 0; the finest value when the levels do not converge
-  Real order = 0;         ///< observed with three levels, otherwise the formal one
-  Real safety_factor = 0; ///< 1.25 with three levels in the asymptotic range, otherwise 3
-  bool observed = false;  ///< the order was observed: three levels that converge monotonically
+  Estimate fine;           ///< finest value with its grid convergence index, absolute
+  Real extrapolated = 0;   ///< Richardson's value at h = 0; the finest value when the levels do not converge
+  Real order = 0;          ///< observed with three levels, otherwise the formal one
+  Real safety_factor = 0;  ///< 1.25 with three levels in the asymptotic range, otherwise 3
+  bool observed = false;   ///< the order was observed: three levels that converge monotonically
 };
 
-/// Richardson extrapolation and grid convergence index (Roache; Celik et al., J. Fluids Eng. 130, 2008, 078001)
-/// of two or three levels in any order; h is proportional to cells^(-1/dimensions).
+/// Richardson extrapolation and grid convergence index (Roache; Celik et al., J. Fluids Eng. 130, 2008,
+/// 078001) of two or three levels in any order; h is proportional to cells^(-1/dimensions).
 ///
-/// Three levels that converge monotonically give the observed order p; above the scheme's `formal_order` it is
-/// cut to that, and below half of it the levels are not in the asymptotic range, which the safety factor answers.
-/// Otherwise p is the formal order, the safety factor 3, and the largest difference of the levels takes the place
-/// of that of the two finest.  GCI = F |f2 - f1| / (r^p - 1).
-/// Throws InputError for another number of levels or a ratio of h below 1.05: differences would then be noise.
-MeshConvergence mesh_convergence(std::span<const MeshLevel> levels, int dimensions = 3, Real formal_order = 2);
+/// Three levels that converge monotonically give the observed order p; above the scheme's `formal_order` it
+/// is cut to that, and below two fifths of it the levels are not in the asymptotic range, which the safety
+/// factor answers. Otherwise p is the formal order, the safety factor 3, and the largest difference of the
+/// levels takes the place of that of the two finest.  GCI = F |f2 - f1| / (r^p - 1). Throws InputError for
+/// another number of levels or a ratio of h below 1.05: differences would then be noise.
+MeshConvergence mesh_convergence(std::span<const MeshLevel> levels, int dimensions = 3,
+                                 Real formal_order = 2);
 
 }  // namespace alphadot

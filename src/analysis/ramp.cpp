@@ -12,12 +12,12 @@ namespace alphadot {
 
 namespace {
 
-using Eigen::Index;
+using Size = Eigen::Index;
 using Eigen::VectorXd;
 
 /// The part of a series from `first` on.
-VectorXd tail_of(const std::vector<Real>& values, Index first) {
-  const auto size = static_cast<Index>(values.size());
+VectorXd tail_of(const std::vector<Real>& values, Size first) {
+  const auto size = static_cast<Size>(values.size());
   return Eigen::Map<const VectorXd>(values.data(), size).tail(size - first);
 }
 
@@ -33,12 +33,12 @@ struct Line {
 };
 
 Line line_with_uncertainty(const VectorXd& x, const VectorXd& y, const VectorXd& bounds) {
-  const Index half = x.size() / 2;
+  const Size half = x.size() / 2;
   const LeastSquares whole = fit_line(x, y);
   const VectorXd change =
       fit_line(x.tail(half), y.tail(half)).parameters - fit_line(x.head(half), y.head(half)).parameters;
   const VectorXd random = whole.uncertainty(), worst = whole.worst_case(bounds);
-  const auto estimate = [&](Index i) {
+  const auto estimate = [&](Size i) {
     return Estimate{whole.parameters(i), std::hypot(random(i), change(i)) + worst(i)};
   };
   return {estimate(0), estimate(1)};
@@ -48,9 +48,10 @@ Line line_with_uncertainty(const VectorXd& x, const VectorXd& y, const VectorXd&
 
 DerivativeSet ramp_derivatives(const ForceHistory& history, const Coefficients& initial, Real initial_angle,
                                Real transient) {
+  history.validate();
   const auto first = std::ranges::lower_bound(history.time, transient) - history.time.begin();
-  const auto samples = static_cast<Index>(history.time.size()) - first;
-  if (samples < 8)
+  const auto samples = static_cast<Size>(history.time.size()) - first;
+  if (samples < 8 || history.angle.empty())
     throw InputError("", 0,
                      fmt::format("ramp: {} samples after the transient of t* = {:g}", samples, transient),
                      "compute a longer ramp or shorter steps");
@@ -66,8 +67,8 @@ DerivativeSet ramp_derivatives(const ForceHistory& history, const Coefficients& 
   CoefficientsOf<Estimate> slope, rate_part;
   for (int c = 0; c < initial.size(); ++c) {
     const VectorXd y = tail_of(history.load(c), first).array() - initial[c];
-    const VectorXd bounds = history.bounds.empty() ? VectorXd(VectorXd::Zero(samples))
-                                                   : tail_of(history.bound(c), first);
+    const VectorXd bounds =
+        history.bounds.empty() ? VectorXd(VectorXd::Zero(samples)) : tail_of(history.bound(c), first);
     // The fit's columns are of order one, whatever the rise in radians.
     const Line fit = line_with_uncertainty(1 / rise * angle, y, bounds);
     slope[c] = 1 / rise * fit.slope;

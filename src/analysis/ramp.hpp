@@ -8,12 +8,12 @@ namespace alphadot {
 
 /// alpha and alphadot derivatives from a plunging ramp. Once the start has passed over the body,
 ///   X = X0 + X_alpha (alpha - alpha0) + X_alphadot alphadot*,
-/// so that the slope against alpha is X_alpha and the intercept X_alphadot times the constant rate. `initial` and
-/// `initial_angle` (rad) belong to the steady state before; samples from t* = `transient` on are used: a start
-/// passes a body of length L in about 2 L / l * M / (M - 1).
-/// Uncertainty: 95 % of the fit, in quadrature with the difference of the two halves of the window (which shows a
-/// start not yet over, or curvature); plus the worst case of the history's bounds.
-/// Throws InputError when fewer than 8 samples remain or the rate is not constant (to 1e-6 of the rise) on them.
+/// so that the slope against alpha is X_alpha and the intercept X_alphadot times the constant rate. `initial`
+/// and `initial_angle` (rad) belong to the steady state before; samples from t* = `transient` on are used: a
+/// start passes a body of length L in about 2 L / l * M / (M - 1). Uncertainty: 95 % of the fit, in
+/// quadrature with the difference of the two halves of the window (which shows a start not yet over, or
+/// curvature); plus the worst case of the history's bounds. Throws InputError when fewer than 8 samples
+/// remain or the rate is not constant (to 1e-6 of the rise) on them.
 DerivativeSet ramp_derivatives(const ForceHistory& history, const Coefficients& initial, Real initial_angle,
                                Real transient);
 

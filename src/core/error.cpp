@@ -1,21 +1,24 @@
 #include "core/error.hpp"
 
+#include <fmt/format.h>
+
 #include <utility>
 
 namespace alphadot {
 
 std::string Problem::text() const {
-  std::string out;
-  if (!file.empty()) out += file + (line > 0 ? ":" + std::to_string(line) : "") + ": ";
+  std::string out = file;
+  if (!file.empty() && line > 0) out += fmt::format(":{}", line);
+  if (!file.empty()) out += ": ";
   out += what;
-  if (!remedy.empty()) out += "; " + remedy;
+  if (!remedy.empty()) out += fmt::format("; {}", remedy);
   return out;
 }
 
 namespace {
 std::string joined(const std::vector<Problem>& problems) {
   std::string out;
-  for (const auto& problem : problems) out += (out.empty() ? "" : "\n") + problem.text();
+  for (const auto& problem : problems) out += fmt::format("{}{}", out.empty() ? "" : "\n", problem.text());
   return out;
 }
 }  // namespace

@@ -28,6 +28,32 @@ Real Motion::period() const {
   return 2 * pi / omega();
 }
 
+Real Motion::driven_angle(const Attitude& attitude) const {
+  switch (settings_.kind) {
+    case MotionKind::sway:
+    case MotionKind::yaw:
+      return attitude.beta - beta_;
+    case MotionKind::roll:
+      return attitude.angle.x;
+    case MotionKind::flap:
+      return attitude.angle.y;
+    default:
+      return attitude.alpha - alpha_;
+  }
+}
+
+int Motion::moment_axis() const {
+  switch (settings_.kind) {
+    case MotionKind::sway:
+    case MotionKind::yaw:
+      return 2;
+    case MotionKind::roll:
+      return 0;
+    default:
+      return 1;
+  }
+}
+
 Attitude Motion::at(Real time) const {
   Attitude out{.alpha = alpha_, .beta = beta_, .angle = {}, .rotation = {}, .velocity = {}};
   const Real phase = omega() * time;

@@ -28,6 +28,10 @@ class Motion {
   /// Velocity of the undisturbed air in mesh axes at rest.
   Vec3 wind() const { return wind_; }
   Real period() const;  ///< of a harmonic motion
+  /// The angle that a harmonic motion drives, as deviation from its mean, in rad.
+  Real driven_angle(const Attitude& attitude) const;
+  /// Axis (0 x, 1 y, 2 z) about which the moment answers the motion.
+  int moment_axis() const;
   Real omega() const { return 2 * speed_ * settings_.reduced_frequency / length_; }
   /// t* = 2 V t / length of a time, and back.
   Real reduced_time(Real time) const { return 2 * speed_ * time / length_; }

@@ -25,6 +25,7 @@ class BlockLuSgs final : public LinearSolver {
                  const TimeTerms& time) override;
   void solve(std::span<const Conserved<Real>> residual, std::span<Primitive<Real>> update) override;
   std::size_t bytes() const override;
+  Real halo_seconds() const override { return update_.halo().wait_seconds(); }
 
  private:
   enum class Direction { forward, backward };

@@ -2,21 +2,25 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <utility>
 
 #include "core/error.hpp"
 
 namespace alphadot {
 
 namespace {
-constexpr Real pseudo_cfl = 1e6;               // the physical time term is damping enough
-constexpr int iterations_per_jacobian = 1000;  // one linearisation a step
+constexpr Real pseudo_cfl = 1e6;     // the physical time term is damping enough
+constexpr Real slowest_rate = 0.95;  // of convergence of the moment that its error estimate allows for
 }  // namespace
 
-DualTime::DualTime(ImplicitIteration& iteration, const Motion& motion, const Vec3& axis_point, Real time_step)
+DualTime::DualTime(ImplicitIteration& iteration, const Motion& motion, const Vec3& axis_point, Real time_step,
+                   const Load& initial)
     : iteration_(iteration),
       motion_(motion),
       axis_point_(axis_point),
       time_step_(time_step),
+      initial_(initial),
       old_(static_cast<std::size_t>(iteration.discretization().domain().owned_cells)) {
   const Real gamma = iteration.discretization().gamma();
   for (std::size_t cell = 0; cell < old_.size(); ++cell)
@@ -44,19 +48,33 @@ void DualTime::add_time_derivative() {
   }
 }
 
+Real DualTime::moment_scale(const StepReport& step, Real amplitude) {
+  const int axis = motion_.moment_axis();
+  largest_angle_ = std::max(largest_angle_, std::abs(motion_.driven_angle(step.attitude)));
+  largest_moment_ =
+      std::max(largest_moment_, std::abs(step.report.total.moment[axis] - initial_.moment[axis]));
+  return largest_angle_ > 0 ? largest_moment_ * amplitude / largest_angle_ : largest_moment_;
+}
+
+void DualTime::keep_levels() {
+  const Real gamma = iteration_.discretization().gamma();
+  std::swap(older_, old_);
+  for (std::size_t i = 0; i < old_.size(); ++i)
+    old_[i] = conserved(iteration_.flow()[static_cast<Index>(i)], gamma);
+}
+
 StepReport DualTime::advance(const InnerTolerance& tolerance) {
-  ++step_;
-  StepReport out{.step = step_,
-                 .time = time(),
-                 .attitude = motion_.at(time()),
-                 .inner_iterations = 0,
-                 .inner_orders = 0,
-                 .moment_error = 0,
-                 .report = {}};
+  StepReport out;
+  out.step = ++step_;
+  out.time = time();
+  out.attitude = motion_.at(out.time);
   const auto conditions = field_velocity_conditions(out.attitude, motion_.wind(), axis_point_,
                                                     iteration_.discretization().gamma());
+  const int axis = motion_.moment_axis();
   predict();
-  Real first = 0, change = 0, moment = 0;
+  iteration_.linearise(conditions, {.cfl = pseudo_cfl, .inverse_step = 1.5 / time_step_});
+  Real first = 0, change = 0;
+  Load previous;
   for (int inner = 0;; ++inner) {
     iteration_.evaluate(conditions, iteration_.discretization().space().order);
     add_time_derivative();
@@ -64,24 +82,22 @@ StepReport DualTime::advance(const InnerTolerance& tolerance) {
     if (!out.report.physical)
       throw DivergedError("the flow became unphysical in time step " + std::to_string(step_));
     if (inner == 0) first = std::max(out.report.density_residual, 1e-300);
-    const Real previous_change = change;
-    change = std::abs(out.report.total.moment.y - moment);
-    moment = out.report.total.moment.y;
-    // Changes that shrink by the rate r leave r / (1 - r) times the latest one.
-    const Real rate =
-        inner < 2 ? Real{0.99} : std::clamp(change / std::max(previous_change, 1e-300), 0.5, 0.99);
-    out.moment_error = inner == 0 ? 1 : change * rate / (1 - rate);
     out.inner_iterations = inner;
     out.inner_orders = std::log10(first / std::max(out.report.density_residual, 1e-300));
-    if ((inner >= 3 && out.moment_error < tolerance.moment) || inner >= tolerance.max_iterations) break;
-    if (inner % iterations_per_jacobian == 0)
-      iteration_.linearise(conditions, {.cfl = pseudo_cfl, .inverse_step = 1.5 / time_step_});
+
+    // Changes that shrink by the rate r each time leave r / (1 - r) times the latest one.
+    const Load delta = out.report.total - previous;
+    const Real previous_change = change;
+    change = std::abs(delta.moment[axis]);
+    const Real rate = std::clamp(change / std::max(previous_change, 1e-300), slowest_rate / 2, slowest_rate);
+    out.error = rate / (1 - rate) * delta;
+    previous = out.report.total;
+    const Real allowed = tolerance.share * moment_scale(out, tolerance.amplitude);
+    if (inner >= 3 && std::abs(out.error.moment[axis]) <= allowed) break;
+    if (inner >= tolerance.max_iterations) break;
     iteration_.advance();
   }
-  for (std::size_t i = 0; i < old_.size(); ++i) {
-    older_[i] = old_[i];
-    old_[i] = conserved(iteration_.flow()[static_cast<Index>(i)], iteration_.discretization().gamma());
-  }
+  keep_levels();
   return out;
 }
 

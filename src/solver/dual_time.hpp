@@ -12,27 +12,32 @@ namespace alphadot {
 
 /// One physical step, passed to the observer when its inner iterations have ended.
 struct StepReport {
-  int step;
-  Real time;
+  int step = 0;
+  Real time = 0;
   Attitude attitude;
-  int inner_iterations;
-  Real inner_orders;  ///< decades that the unsteady density residual dropped within the step
-  Real moment_error;  ///< estimate of what is left in the pitching moment (in units of the load) by stopping
-                      ///< here
+  int inner_iterations = 0;
+  Real inner_orders = 0;  ///< decades that the unsteady density residual dropped within the step
+  Load error;             ///< estimate of what is left in force and moment by stopping here
   FlowReport report;
 };
 
-/// When a step's inner iterations may end: the moment's remaining error, extrapolated from the rate at which
-/// its changes shrink, must fall below this. In units of the load's moment.
+/// When a step's inner iterations may end. The part of the moment that is out of phase with the angle is
+/// about k times the part in phase, so the moment itself must be converged to a small share of that: its
+/// remaining error, extrapolated from the rate at which its changes shrink, must fall below `share` times the
+/// largest deviation of the moment that the motion's full amplitude would cause.
 struct InnerTolerance {
-  Real moment;
+  Real share;      ///< reduced frequency times the tolerance of the out-of-phase part
+  Real amplitude;  ///< rad, of the driven angle
   int max_iterations;
 };
 
+/// Time-accurate march along a motion, by field velocity on a still mesh.
 class DualTime {
  public:
-  /// Starts from the flow in `iteration`, taken as steady for all times before t = 0.
-  DualTime(ImplicitIteration& iteration, const Motion& motion, const Vec3& axis_point, Real time_step);
+  /// Starts from the flow in `iteration`, taken as steady for all times before t = 0, with `initial` its
+  /// loads.
+  DualTime(ImplicitIteration& iteration, const Motion& motion, const Vec3& axis_point, Real time_step,
+           const Load& initial);
 
   /// One step of BDF2: V (3 U - 4 U^n + U^(n-1)) / (2 dt) + R(U) = 0. Throws DivergedError when a state turns
   /// unphysical.
@@ -45,11 +50,16 @@ class DualTime {
  private:
   void predict();
   void add_time_derivative();
+  void keep_levels();
+  /// Largest deviation of the moment seen, scaled to the full amplitude.
+  Real moment_scale(const StepReport& step, Real amplitude);
 
   ImplicitIteration& iteration_;
   const Motion& motion_;
   Vec3 axis_point_;
   Real time_step_;
+  Load initial_;
+  Real largest_angle_ = 0, largest_moment_ = 0;  // deviations from the start
   int step_ = 0;
   std::vector<Conserved<Real>> old_, older_;  // [owned_cells] U^n, U^(n-1)
 };

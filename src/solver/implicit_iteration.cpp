@@ -51,8 +51,7 @@ FlowReport ImplicitIteration::report() const {
       load.force[i] = *next++;
       load.moment[i] = *next++;
     }
-    out.total.force += load.force;
-    out.total.moment += load.moment;
+    out.total += load;
   }
   return out;
 }

@@ -50,6 +50,11 @@ class ImplicitIteration {
   void undo();
 
   GlobalIndex iterations() const { return iterations_; }
+  /// Seconds that this rank has waited for halos.
+  Real halo_seconds() const {
+    return flow_.halo().wait_seconds() + residual_.reconstruction().halo().wait_seconds() +
+           solver_->halo_seconds();
+  }
   /// Bytes of this rank's arrays, mesh included.
   std::size_t bytes() const;
 

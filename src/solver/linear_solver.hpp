@@ -27,6 +27,7 @@ class LinearSolver {
   /// Solves (time terms + dR/dW) update = -residual roughly. `update` is [owned_cells]. Communicates.
   virtual void solve(std::span<const Conserved<Real>> residual, std::span<Primitive<Real>> update) = 0;
   virtual std::size_t bytes() const = 0;
+  virtual Real halo_seconds() const = 0;  ///< waited for halos so far
 };
 
 }  // namespace alphadot

@@ -3,11 +3,10 @@
 
 #include <functional>
 
+#include "core/run_status.hpp"
 #include "solver/implicit_iteration.hpp"
 
 namespace alphadot {
-
-enum class RunStatus { converged, completed, interrupted, diverged };
 
 /// Passed to the observer after every iteration.
 struct SteadyProgress {

@@ -39,7 +39,8 @@ void expect_equal(const DerivativeSet& found, const DerivativeSet& expected, Rea
   ASSERT_EQ(found.size(), expected.size());
   for (const auto& [variable, values] : expected)
     for (int i = 0; i < Coefficients::size(); ++i)
-      EXPECT_NEAR(found.at(variable)[i].value, values[i].value, tolerance) << derivative_name(i, variable);
+      EXPECT_NEAR(found.at(variable)[i].value, values[i].value, tolerance)
+          << derivative_name(coefficient_names[static_cast<std::size_t>(i)], variable);
 }
 
 // Both lines of exact_wedge_derivatives.csv: sharp wedge, half angle 5 deg, M 2, about 0 and 0.5 c, eight

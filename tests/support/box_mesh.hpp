@@ -17,8 +17,8 @@ struct BoxSettings {
   Vec3 lower{0, 0, 0};
   Vec3 upper{1, 1, 1};
   /// Interior points are moved by up to this share of the spacing along each axis. Volumes stay positive up
-  /// to 0.16: the width of a Kuhn tetrahedron of the unit cube is 1/sqrt(3), and each of its two sides may
-  /// give way by sqrt(3) * perturbation.
+  /// to 0.16: the width of a Kuhn tetrahedron of the unit cube, 1/sqrt(3), exceeds twice the longest shift,
+  /// sqrt(3) * perturbation.
   Real perturbation = 0;
   std::uint32_t seed = 1;
 };

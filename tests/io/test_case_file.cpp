@@ -184,6 +184,8 @@ INSTANTIATE_TEST_SUITE_P(
         BadCase{"mach = 2\n[output]\nfolder = \"\"", 7, "must not be empty"},
         BadCase{"mach = 2\n[output]\nfolder = \"\"\"a\nb\"\"\"", 7, "multi-line text"},
         BadCase{"mach = 2\n[a.b.c.d.e.f.g.h.i.j.k.l.m.n.o.p.q.r]", 6, "too many parts"},
+        BadCase{"mach = 2\ngrün = 1", 6, "not ASCII"}, BadCase{"mach = 2.5\"é\"", 5, "a quote in the middle"},
+        BadCase{"mach = 2\n[space]\nflux = \"roe\a\"", 7, "a control character"},
         BadCase{"mach = 2\n[motion]\nkind = \"table\"\n[unsteady]\nduration = 1\nsteps = 2", 7,
                 "needs motion.table_file"},
         BadCase{"mach = 2\n[motion]\nkind = \"step_alpha\"\n[unsteady]\nsteps = 2", 7,

@@ -73,7 +73,7 @@ TEST(Hdf5, PiecesAndGrowthMakeTheWholeArray) {
   const TemporaryFolder folder;
   {
     auto file = hdf5::File::create(folder / "a.h5");
-    auto pieces = file.create<float>("pieces", 5, 2);
+    auto pieces = file.create_dataset<float>("pieces", 5, 2);
     pieces.write(3, std::span<const float>(std::vector<float>{6, 7, 8, 9}));
     pieces.write(0, std::span<const float>(std::vector<float>{0, 1, 2, 3, 4, 5}));
     auto growing = file.create_growing<std::int32_t>("growing");
@@ -134,10 +134,12 @@ TEST(Hdf5, UnsoundFilesAreRefused) {
   {
     auto file = hdf5::File::create(folder / "a.h5");
     file.write("x", std::vector<double>(10000, 1.0));
-    file.create<double>("never_written", 1000);
+    file.create_dataset<double>("never_written", 1000);
     file.close();
   }
-  EXPECT_NE(message_of([&] { hdf5::File::open(folder / "a.h5").dataset("never_written"); }).find("less data"),
+  EXPECT_NE(message_of([&] {
+              hdf5::File::open(folder / "a.h5").dataset("never_written").read<double>();
+            }).find("less data"),
             std::string::npos);
   std::filesystem::resize_file(folder / "a.h5", 40000);
   EXPECT_NE(message_of([&] { hdf5::File::open(folder / "a.h5"); }).find("incomplete"), std::string::npos);

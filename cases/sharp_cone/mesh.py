@@ -1,0 +1,121 @@
+#!/usr/bin/python3
+"""Mesh of a sharp circular cone of 10 degrees half-angle with a blunt base, in a conical supersonic far field.
+
+Lengths are in cone lengths; x aft from the apex, y starboard, z up. gmsh meshes the quarter y, z >= 0; the half and full models are
+its exact mirror images. The flow is conical, and so is the mesh: cells grow in proportion to the distance from the apex.
+"""
+
+from __future__ import annotations
+
+import argparse
+import csv
+import math
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE.parents[1] / "scripts"))
+
+try:
+    import gmsh
+    import numpy as np
+
+    import meshing
+except ImportError as error:
+    sys.exit(f"mesh.py: {error}; install the Debian packages python3-gmsh and python3-numpy and run with /usr/bin/python3")
+
+SLOPE = math.tan(math.radians(10.0))  # also the radius of the base
+# Cell size h on the surface just ahead of the base region, and relative to the distance from the apex elsewhere.
+LEVELS = {"tiny": 0.09, "small": 0.055, "coarse": 0.038, "medium": 0.0275, "fine": 0.0195}
+FLOOR = 0.06  # nearer to the apex than this, cells do not become smaller
+
+# Far field: a frustum outside the bow shock for |alpha| <= 3 deg, whose waves therefore never come back.
+FAR_START, FAR_RADIUS, FAR_END = -0.05, 0.03, 1.12
+MARGIN = 6.0  # degrees between the shock at zero incidence and the far field
+
+
+def shock_angle(mach: float) -> float:
+    """Shock angle at zero incidence in degrees, between the exact values of the reference file (from above: it is convex)."""
+    with open(HERE / "reference" / "exact_cone_steady.csv") as file:
+        rows = list(csv.DictReader(line for line in file if not line.startswith("#")))
+    known = np.array([(float(row["Mach"]), float(row["shock_angle_deg"])) for row in rows])
+    if not known[0, 0] <= mach <= known[-1, 0]:
+        raise meshing.MeshError(f"--mach {mach} is outside {known[0, 0]} to {known[-1, 0]}")
+    return float(np.interp(mach, *known.T))
+
+
+def build_quarter(far_angle: float) -> None:
+    """Make the fluid of the quarter y, z >= 0 the current gmsh model (OpenCASCADE); the angle is in degrees."""
+    occ = gmsh.model.occ
+    far_radius = FAR_RADIUS + (FAR_END - FAR_START) * math.tan(math.radians(far_angle))
+    profile = [(0.0, 0.0), (1.0, SLOPE), (1.0, 0.0), (FAR_END, 0.0), (FAR_END, far_radius), (FAR_START, FAR_RADIUS),
+               (FAR_START, 0.0)]  # fmt: skip
+    points = [occ.addPoint(x, r, 0.0) for x, r in profile]
+    lines = [occ.addLine(a, b) for a, b in zip(points, points[1:] + points[:1])]
+    face = occ.addPlaneSurface([occ.addCurveLoop(lines)])
+    occ.revolve([(2, face)], 0, 0, 0, 1, 0, 0, math.pi / 2)
+    occ.synchronize()
+
+
+def size_field(h: float, shock: float) -> Callable[[int, int, float, float, float], float]:
+    """The cell size wanted at a point, in cone lengths; proportional to h. `shock`: its angle in degrees."""
+    last = math.tan(math.radians(shock))
+
+    def size(_dimension: int, _tag: int, x: float, y: float, z: float) -> float:
+        r = math.hypot(y, z)
+        across = r - SLOPE * x if x > 0.0 else r
+        # Half of h at the rim of the base, so that the fan there stays out of the last cells of the cone.
+        rim = min(1.0, 0.5 + 5.0 * math.hypot(x - 1.0, r - SLOPE))
+        # The last wave that still reaches the base comes in less steep than the shock: nothing matters beyond.
+        late = max(x - 1.0 + max(r - SLOPE, 0.0) / last, 0.0)
+        return h * min((max(math.hypot(x, r), FLOOR) + 2.0 * max(across, 0.0)) * rim + 12.0 * late, 6.0)
+
+    return size
+
+
+def patch_name(points: np.ndarray) -> str:
+    """The patch of a CAD face, from all its mesh points (n, 3)."""
+    x, y, z = points.T
+    residuals = {"symmetry_y": y, "symmetry_z": z, "body": np.hypot(y, z) - SLOPE * x, "base": x - 1.0}
+    return next((name for name, residual in residuals.items() if np.all(np.abs(residual) < 1e-7)), "farfield")
+
+
+def compensate_chords(mesh: meshing.TetMesh) -> None:
+    """Move the points of the body outward until its flat triangles enclose, to leading order, the volume of the true cone.
+
+    Over a triangle whose corners are u apart along the circumference, the chords run sum(u^2) / (24 r) inside the circle of radius
+    r in the mean. Left alone, the triangles make a slimmer cone, and a steeper one wherever they become smaller.
+    """
+    radius = np.hypot(mesh.points[:, 1], mesh.points[:, 2])
+    circle = mesh.points[:, 1:] / np.where(radius > 0.0, radius, 1.0)[:, None]
+    body = mesh.patches["body"]
+    edges = circle[body] - circle[np.roll(body, 1, axis=1)]
+    area = np.linalg.norm(meshing.area_vectors(mesh.points, body), axis=1)
+    inside = area * (edges**2).sum(axis=(1, 2)) / 24.0
+    gather = lambda values: np.bincount(body.ravel(), np.repeat(values, 3), len(radius))
+    mesh.points[:, 1:] *= 1.0 + (gather(inside) / np.maximum(gather(area), 1e-300))[:, None]
+
+
+def build(h: float, arguments: argparse.Namespace) -> tuple[meshing.TetMesh, list[str]]:
+    """The mesh, and lines that compare its patches with the exact cone."""
+    shock = shock_angle(arguments.mach)
+    gmsh.model.add("quarter")
+    build_quarter(shock + MARGIN)
+    quarter = meshing.mesh_sector(size_field(h, shock), patch_name, {"symmetry_y": 1, "symmetry_z": 2})
+    compensate_chords(quarter)
+    mesh, symmetry = meshing.unfolded(quarter, arguments.model)
+    share = meshing.MODELS[arguments.model]
+    exact = {"body": share * math.pi * SLOPE * math.hypot(1.0, SLOPE), "base": share * math.pi * SLOPE**2}
+    return mesh, meshing.patch_report(mesh, exact) + symmetry
+
+
+def main() -> None:
+    parser = meshing.command_line(__doc__, LEVELS, "cone length")
+    parser.add_argument("--model", choices=meshing.MODELS, default="half", help="half is y >= 0 (default)")
+    parser.add_argument("--mach", type=float, default=1.58, help="the lowest Mach number for this mesh, 1.58 (default) to 3")
+    meshing.run(parser, LEVELS, build)
+
+
+if __name__ == "__main__":
+    main()

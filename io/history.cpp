@@ -1,0 +1,208 @@
+#include "io/history.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <iterator>
+#include <set>
+#include <sstream>
+#include <stdexcept>
+
+#include "core/error.hpp"
+#include "io/case_file.hpp"
+#include "io/case_words.hpp"
+#include "io/files.hpp"
+#include "io/provenance.hpp"
+
+namespace alphadot {
+namespace {
+
+constexpr char format_name[] = "alphadot history";
+constexpr std::int64_t format_version = 1;
+
+std::vector<double> as_vector(const Vec3& v) {
+  return {v.x, v.y, v.z};
+}
+
+Vec3 read_point(const hdf5::Group& group, const std::string& name) {
+  const auto v = group.attributes<double>(name);
+  if (v.size() != 3) throw InputError(group.file(), 0, "attribute " + name + " must hold three values");
+  return {v[0], v[1], v[2]};
+}
+
+template <class E>
+E read_word(const hdf5::Group& group, const std::string& name) {
+  const auto text = group.text_attribute(name);
+  const auto value = value_of<E>(text);
+  if (!value)
+    throw InputError(group.file(), 0, "attribute " + name + " has the unknown value \"" + text + "\"");
+  return *value;
+}
+
+void write_info(hdf5::Group& group, const HistoryInfo& info) {
+  group.set_attribute("title", info.title);
+  group.set_attribute("reference_length", info.reference.length);
+  group.set_attribute("reference_area", info.reference.area);
+  group.set_attribute("moment_center", as_vector(info.reference.moment_center));
+  group.set_attribute("half_model", std::int32_t{info.reference.half_model});
+  group.set_attribute("mach", info.freestream.mach);
+  group.set_attribute("alpha", info.freestream.alpha);
+  group.set_attribute("beta", info.freestream.beta);
+  group.set_attribute("gamma", info.freestream.gamma);
+  group.set_attribute("motion", word_of(info.motion.kind));
+  group.set_attribute("treatment", word_of(info.motion.treatment));
+  group.set_attribute("amplitude", info.motion.amplitude);
+  group.set_attribute("reduced_frequency", info.motion.reduced_frequency);
+  group.set_attribute("axis_point", as_vector(info.motion.axis_point));
+  group.set_attribute("motion_table", info.motion.table_file);
+  group.set_attribute("mesh_hash", info.mesh_hash);
+  group.set_attribute("version", info.version);
+  group.set_attribute("conventions", info.conventions);
+  group.write_text("case", info.case_text);
+}
+
+HistoryInfo read_info(const hdf5::Group& group) {
+  HistoryInfo info;
+  info.title = group.text_attribute("title");
+  info.reference = {.length = group.attribute<double>("reference_length"),
+                    .area = group.attribute<double>("reference_area"),
+                    .moment_center = read_point(group, "moment_center"),
+                    .half_model = group.attribute<std::int32_t>("half_model") != 0};
+  info.freestream = {.mach = group.attribute<double>("mach"),
+                     .alpha = group.attribute<double>("alpha"),
+                     .beta = group.attribute<double>("beta"),
+                     .gamma = group.attribute<double>("gamma")};
+  info.motion = {.kind = read_word<MotionKind>(group, "motion"),
+                 .treatment = read_word<TreatmentKind>(group, "treatment"),
+                 .amplitude = group.attribute<double>("amplitude"),
+                 .reduced_frequency = group.attribute<double>("reduced_frequency"),
+                 .axis_point = read_point(group, "axis_point"),
+                 .table_file = group.text_attribute("motion_table")};
+  info.mesh_hash = group.text_attribute("mesh_hash");
+  info.version = group.text_attribute("version");
+  info.conventions = group.text_attribute("conventions");
+  info.case_text = group.dataset("case").read_text();
+  return info;
+}
+
+void check_format(const hdf5::Group& group) {
+  if (!group.has_attribute("format") || group.text_attribute("format") != format_name)
+    throw InputError(group.file(), 0, "not a history of alphadot", "give the history.h5 of a run");
+  const auto version = group.attribute<std::int64_t>("format_version");
+  if (version != format_version)
+    throw InputError(group.file(), 0,
+                     fmt::format("a history of format {}, this program reads {}", version, format_version));
+}
+
+std::string csv_cell(const std::string& text) {
+  if (text.find_first_of(",\"\n") == std::string::npos) return text;
+  std::string out = "\"";
+  for (const char c : text) out += c == '"' ? "\"\"" : std::string(1, c);
+  return out + '"';
+}
+
+}  // namespace
+
+HistoryInfo history_info(const Case& c, const std::string& mesh_hash) {
+  HistoryInfo info;
+  info.title = c.title;
+  info.reference = c.reference;
+  info.freestream = c.freestream;
+  info.motion = c.motion;
+  info.mesh_hash = mesh_hash;
+  info.version = provenance(1).version;
+  info.case_text = resolved_case(c);
+  return info;
+}
+
+void History::append(const Row& row) {
+  if (names_.empty()) {
+    std::set<std::string> seen;
+    for (const auto& [name, value] : row) {
+      if (!seen.insert(name).second) throw InputError("", 0, "the history has two columns " + name);
+      names_.push_back(name);
+    }
+    columns_.resize(row.size());
+  }
+  const auto name_of = [](const auto& entry) -> const std::string& { return entry.first; };
+  if (!std::ranges::equal(row, names_, {}, name_of))
+    throw std::logic_error("a history row with other columns");
+  for (std::size_t i = 0; i < row.size(); ++i) columns_[i].push_back(row[i].second);
+}
+
+bool History::has(const std::string& name) const {
+  return std::ranges::find(names_, name) != names_.end();
+}
+
+const std::vector<Real>& History::column(const std::string& name) const {
+  const auto found = std::ranges::find(names_, name);
+  if (found != names_.end()) return columns_[static_cast<std::size_t>(found - names_.begin())];
+  std::string all;
+  for (const auto& known : names_) all += (all.empty() ? "" : ", ") + known;
+  throw InputError("", 0, "the history has no column " + name, "it has " + all);
+}
+
+std::vector<std::string> History::components() const {
+  std::vector<std::string> found;
+  for (const auto& name : names_)
+    if (name.ends_with("/CA")) found.push_back(name.substr(0, name.size() - 3));
+  return found;
+}
+
+void History::write(hdf5::Group& group) const {
+  group.set_attribute("format", format_name);
+  group.set_attribute("format_version", format_version);
+  write_info(group, info);
+  std::string lines;
+  for (const auto& name : names_) lines += name + "\n";
+  group.write_text("column_names", lines);
+  const auto columns = group.create_group("columns");
+  for (std::size_t i = 0; i < names_.size(); ++i) columns.write(names_[i], columns_[i]);
+}
+
+History History::read(const hdf5::Group& group) {
+  check_format(group);
+  History history(read_info(group));
+  std::istringstream lines(group.dataset("column_names").read_text());
+  const auto columns = group.group("columns");
+  for (std::string name; std::getline(lines, name);) {
+    if (history.has(name)) throw InputError(group.file(), 0, "two columns " + name);
+    auto values = columns.dataset(name).read<double>();
+    if (!history.columns_.empty() && values.size() != history.steps())
+      throw InputError(
+          group.file(), 0,
+          fmt::format("column {} has {} steps, others have {}", name, values.size(), history.steps()));
+    history.names_.push_back(name);
+    history.columns_.push_back(std::move(values));
+  }
+  return history;
+}
+
+std::string History::csv() const {
+  std::string text;
+  for (std::size_t i = 0; i < names_.size(); ++i) text += (i ? "," : "") + csv_cell(names_[i]);
+  text += '\n';
+  for (std::size_t step = 0; step < steps(); ++step) {
+    for (std::size_t i = 0; i < columns_.size(); ++i)
+      fmt::format_to(std::back_inserter(text), "{}{}", i ? "," : "", columns_[i][step]);
+    text += '\n';
+  }
+  return text;
+}
+
+void write_history(const std::string& folder, const History& history) {
+  const std::filesystem::path in(folder);
+  replace_file(in / "history.h5", [&](const std::string& temporary) {
+    auto file = hdf5::File::create(temporary);
+    history.write(file);
+    file.close();
+  });
+  replace_file_with(in / "history.csv", history.csv());
+}
+
+History read_history(const std::string& path) {
+  return History::read(hdf5::File::open(path));
+}
+
+}  // namespace alphadot

@@ -1,0 +1,83 @@
+#include "io/result.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include "io/files.hpp"
+
+namespace alphadot {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json json_of(const NamedValues& values) {
+  Json out = Json::object();
+  for (const auto& [name, value] : values) out[name] = value;
+  return out;
+}
+
+Json json_of(const Result& r) {
+  Json forces = json_of(r.forces);
+  forces["components"] = Json::object();
+  for (const auto& [name, loads] : r.components) forces["components"][name] = json_of(loads);
+  forces["excluded"] = r.excluded;
+
+  Json derivatives = Json::object();
+  for (const auto& [name, d] : r.derivatives)
+    derivatives[name] = {{"value", d.value}, {"uncertainty", d.uncertainty}, {"method", d.method}};
+
+  const Vec3& center = r.reference.moment_center;
+  const auto& performance = r.performance;
+  const auto& source = r.provenance;
+  return {
+      {"status", to_string(r.status)},
+      {"message", r.message},
+      {"title", r.title},
+      {"ranks", source.ranks},
+      {"mesh",
+       {{"file", r.mesh.file}, {"cells", r.mesh.cells}, {"points", r.mesh.points}, {"hash", r.mesh.hash}}},
+      {"reference",
+       {{"length", r.reference.length},
+        {"area", r.reference.area},
+        {"moment_center", Json::array({center.x, center.y, center.z})},
+        {"model", r.reference.half_model ? "half" : "full"},
+        {"rate", r.rate},
+        {"axes", r.axes}}},
+      {"freestream",
+       {{"mach", r.freestream.mach},
+        {"alpha", r.freestream.alpha},
+        {"beta", r.freestream.beta},
+        {"gamma", r.freestream.gamma}}},
+      {"forces", forces},
+      {"derivatives", derivatives},
+      {"performance",
+       {{"wall_s", performance.wall_s},
+        {"cpu_s", performance.cpu_s},
+        {"iterations", performance.iterations},
+        {"core_us_per_cell_iteration", performance.core_us_per_cell_iteration},
+        {"bytes_per_cell", performance.bytes_per_cell},
+        {"halo_fraction", performance.halo_fraction}}},
+      {"provenance",
+       {{"version", source.version},
+        {"commit", source.commit},
+        {"compiler", source.compiler},
+        {"flags", source.flags},
+        {"build_type", source.build_type},
+        {"mpi", source.mpi_version},
+        {"hdf5", source.hdf5_version},
+        {"cpu", source.cpu},
+        {"host", source.host},
+        {"date", source.date}}}};
+}
+
+}  // namespace
+
+std::string result_json(const Result& result) {
+  // The library writes null for what is not finite, and the replacement character for what is not UTF-8.
+  return json_of(result).dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+void write_result(const std::string& path, const Result& result) {
+  replace_file_with(path, result_json(result));
+}
+
+}  // namespace alphadot

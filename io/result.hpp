@@ -1,0 +1,66 @@
+// result.json: what a run has found, for people and programs.
+#pragma once
+
+#include <limits>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/case.hpp"
+#include "core/run_status.hpp"
+#include "io/provenance.hpp"
+
+namespace alphadot {
+
+/// Names and values in the order in which they are shown.
+using NamedValues = std::vector<std::pair<std::string, Real>>;
+
+struct DerivativeResult {
+  Real value = 0;
+  Real uncertainty = 0;
+  std::string method;  ///< "harmonic fit of plunge at k = 0.01", ...
+};
+
+/// Not a number: a figure that was not measured; null in the file.
+inline constexpr Real not_measured = std::numeric_limits<Real>::quiet_NaN();
+
+struct PerformanceResult {
+  Real wall_s = not_measured;
+  Real cpu_s = not_measured;  ///< over all ranks
+  std::int64_t iterations = 0;
+  Real core_us_per_cell_iteration = not_measured;
+  Real bytes_per_cell = not_measured;
+  Real halo_fraction = not_measured;  ///< share of the wall time spent waiting for other ranks
+};
+
+struct MeshResult {
+  std::string file;
+  std::int64_t cells = 0, points = 0;
+  std::string hash;
+};
+
+struct Result {
+  RunStatus status = RunStatus::error;
+  std::string message;  ///< why it ended so; may be empty
+  std::string title;
+  MeshResult mesh;
+  ReferenceSettings reference;
+  FreestreamSettings freestream;
+  std::string rate;                               ///< how rates are made dimensionless, "length / (2 V)"
+  std::string axes;                               ///< of forces and moments
+  NamedValues forces;                             ///< CA CY CN Cl Cm Cn of the whole configuration
+  std::map<std::string, NamedValues> components;  ///< the same by patch
+  std::vector<std::string> excluded;              ///< patches left out of the forces (sting, jet)
+  std::map<std::string, DerivativeResult> derivatives;  ///< by name, "Cm_alphadot"; per radian
+  PerformanceResult performance;
+  Provenance provenance;
+};
+
+/// The result as JSON text. What is not finite becomes null.
+std::string result_json(const Result& result);
+
+/// Writes it as `path` through a temporary file. For one rank; throws InputError.
+void write_result(const std::string& path, const Result& result);
+
+}  // namespace alphadot

@@ -1,0 +1,42 @@
+// Pictures of the flow: VTKHDF files (version 1.0, UnstructuredGrid, one piece) that ParaView 5.10 and later
+// opens.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/communicator.hpp"
+#include "core/types.hpp"
+#include "core/vec3.hpp"
+#include "partition/subdomain.hpp"
+
+namespace alphadot {
+
+/// A named quantity on cells or faces. Refers to the values, which must live until it has been written.
+struct VtkField {
+  std::string name;
+  int components;                ///< 1, or 3 for a vector
+  std::span<const Real> values;  ///< [cells or faces][components]
+
+  VtkField(std::string field_name, std::span<const Real> scalars)
+      : name(std::move(field_name)), components(1), values(scalars) {}
+  VtkField(std::string field_name, std::span<const Vec3> vectors)
+      : name(std::move(field_name)),
+        components(3),
+        values(reinterpret_cast<const Real*>(vectors.data()), 3 * vectors.size()) {}
+};
+
+/// Writes the owned cells of all ranks with their fields ([owned_cells] values each, or more: ghosts are left
+/// out), in the order of ranks; points on the cuts between ranks appear once a rank. Reals become 32-bit
+/// floats. Through a temporary file. Collective; every rank gives the same fields. Throws InputError on every
+/// rank.
+void write_flow(const std::string& path, const Subdomain& domain, const std::vector<VtkField>& fields,
+                const Communicator& comm);
+
+/// The same for the boundary faces ([boundary_faces] values in each field), with the integer field "patch":
+/// the index into Subdomain::patch_names, which are its attribute "names", one a line.
+void write_surface(const std::string& path, const Subdomain& domain, const std::vector<VtkField>& fields,
+                   const Communicator& comm);
+
+}  // namespace alphadot

@@ -1,0 +1,19 @@
+// Everything known about the aerodynamics at one flight condition.
+#pragma once
+
+#include <string>
+
+#include "analysis/derivatives.hpp"
+#include "core/case.hpp"
+
+namespace alphadot {
+
+struct FlightPoint {
+  std::string title;
+  ReferenceSettings reference;
+  FreestreamSettings freestream;
+  Coefficients steady;        ///< on body axes
+  DerivativeSet derivatives;  ///< on body axes, about reference.moment_center
+};
+
+}  // namespace alphadot

@@ -1,0 +1,66 @@
+#include "analysis/table.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace alphadot {
+
+namespace {
+
+/// The text with `prefix` before every line.
+std::string prefixed(const std::string& text, const std::string& prefix) {
+  std::string out;
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = text.find('\n', begin) + 1;
+    out += prefix + text.substr(begin, end - begin);
+    begin = end;
+  }
+  return out;
+}
+
+}  // namespace
+
+std::vector<TableRow> rows_of(const DerivativeSet& derivatives, const std::string& method, Axes axes) {
+  std::vector<TableRow> rows;
+  for (const auto& [variable, values] : derivatives)
+    for (int c = 0; c < values.size(); ++c)
+      if (values[c].value != 0 || values[c].uncertainty != 0)
+        rows.push_back(
+            {derivative_name(names_in(axes)[static_cast<std::size_t>(c)], variable), values[c], method});
+  return rows;
+}
+
+std::string reference_text(const ReferenceSettings& reference, Axes axes) {
+  const Vec3& center = reference.moment_center;
+  const char* axes_text =
+      axes == Axes::body
+          ? "body: CA aft, CY starboard, CN up; Cl, Cm, Cn about x forward, y starboard, z down"
+          : "stability: CD and CL along and across the projected wind; Cl, Cn about axes turned "
+            "with alpha; Cm nose up";
+  return fmt::format(
+      "Reference: length {:g}, area {:g}, moment centre and axis of rotation ({:g}, {:g}, {:g})\n"
+      "Axes: {}\n"
+      "Units: per rad; rates times length / 2V\n",
+      reference.length, reference.area, center.x, center.y, center.z, axes_text);
+}
+
+std::string derivative_table(std::span<const TableRow> rows, const ReferenceSettings& reference, Axes axes) {
+  std::size_t width = 4;
+  for (const auto& row : rows) width = std::max(width, row.name.size());
+  std::string out = reference_text(reference, axes);
+  out += fmt::format("{:<{}} {:>13}   {:<12} {}\n", "name", width, "value", "uncertainty", "method");
+  for (const auto& [name, value, method] : rows)
+    out +=
+        fmt::format("{:<{}} {:>13.6g} ± {:<12.2g} {}\n", name, width, value.value, value.uncertainty, method);
+  return out;
+}
+
+std::string derivative_csv(std::span<const TableRow> rows, const ReferenceSettings& reference, Axes axes) {
+  std::string out = prefixed(reference_text(reference, axes), "# ") + "name,value,uncertainty,method\n";
+  for (const auto& [name, value, method] : rows)
+    out += fmt::format("{},{:.17g},{:.17g},\"{}\"\n", name, value.value, value.uncertainty, method);
+  return out;
+}
+
+}  // namespace alphadot

@@ -1,0 +1,23 @@
+// From a recorded history to derivatives.
+#pragma once
+
+#include <string>
+
+#include "analysis/derivatives.hpp"
+#include "io/history.hpp"
+
+namespace alphadot {
+
+struct Extraction {
+  DerivativeSet derivatives;  ///< about the history's moment centre
+  std::string method;         ///< "harmonic fit, plunge, k = 0.01"
+};
+
+/// Derivatives of the whole configuration ("total") by the method that the history's motion allows. Throws
+/// InputError when the history is too short or its motion yields none.
+Extraction extract_derivatives(const History& history);
+
+/// The word of the case file for a motion, "plunge".
+std::string motion_name(MotionKind kind);
+
+}  // namespace alphadot

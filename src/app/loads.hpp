@@ -1,0 +1,21 @@
+// From loads in solver units to coefficients.
+#pragma once
+
+#include "analysis/coefficients.hpp"
+#include "core/case.hpp"
+#include "solver/forces.hpp"
+
+namespace alphadot {
+
+/// Divides by the dynamic pressure and the reference area (and length). A half model counts twice, and what
+/// its mirror image cancels is zero.
+inline Coefficients coefficients(const Load& load, const Case& settings) {
+  const auto& reference = settings.reference;
+  const Real dynamic_pressure = 0.5 * settings.freestream.mach * settings.freestream.mach;
+  const Real scale = (reference.half_model ? 2 : 1) / (dynamic_pressure * reference.area);
+  auto out = coefficients_of(scale * load.force, scale / reference.length * load.moment);
+  if (reference.half_model) out.CY = out.Cl = out.Cn = 0;
+  return out;
+}
+
+}  // namespace alphadot

@@ -1,0 +1,95 @@
+// The command line.
+#include <CLI/CLI.hpp>
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdio>
+#include <functional>
+#include <limits>
+
+#include "app/verbs.hpp"
+#include "core/error.hpp"
+#include "core/log.hpp"
+#include "io/case_file.hpp"
+#include "io/provenance.hpp"
+
+namespace {
+
+using namespace alphadot;
+
+/// Runs a verb; its errors are printed once, and every rank gets the exit code.
+int guarded(const Communicator& comm, const std::function<RunStatus()>& verb) {
+  try {
+    return exit_code(verb());
+  } catch (const InputError& error) {
+    if (comm.is_root())
+      for (const auto& problem : error.problems())
+        fmt::print(stderr, "alphadot: error: {}\n", problem.text());
+  } catch (const std::exception& error) {
+    // Not foreseen, so other ranks may be waiting for this one: end them too.
+    fmt::print(stderr, "alphadot: internal error on rank {}: {}\n", comm.rank(), error.what());
+    if (comm.size() > 1) MPI_Abort(comm.handle(), exit_code(RunStatus::error));
+  }
+  return exit_code(RunStatus::error);
+}
+
+void add_case_arguments(CLI::App& verb, CaseArguments& arguments) {
+  verb.add_option("case", arguments.case_file, "Case file (TOML)")->required();
+  verb.add_option("--set", arguments.overrides, "Replace a key of the case, e.g. --set freestream.mach=2")
+      ->type_name("KEY=VALUE")
+      ->take_all();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const MpiSession mpi(argc, argv);
+  const Communicator comm;
+
+  CLI::App app{
+      "Dynamic stability derivatives of missiles and aircraft by field velocity.\n"
+      "Exit codes: 0 converged or completed, 1 error, 2 wrong command line, 3 interrupted, 4 diverged."};
+  app.set_version_flag("--version", version_line());
+  app.require_subcommand(1);
+  app.fallthrough();
+  bool quiet = false;
+  app.add_flag("-q,--quiet", quiet, "Only warnings and errors");
+
+  CaseArguments arguments;
+  auto& run = *app.add_subcommand("run", "Steady state, motion and derivatives of a case");
+  add_case_arguments(run, arguments);
+  run.add_option("--out", arguments.folder, "Folder of the run (default: runs/<name of the case file>)");
+
+  auto& check = *app.add_subcommand("check", "Check case and mesh without running");
+  add_case_arguments(check, arguments);
+
+  std::string file;
+  Real center = std::numeric_limits<Real>::quiet_NaN();
+  auto& derive = *app.add_subcommand("derive", "Derivatives from the history of a motion");
+  derive.add_option("history", file, "history.h5 of a run")->required();
+  derive.add_option("--center", center, "x of the moment centre, in mesh units (default: that of the run)");
+
+  auto& info = *app.add_subcommand("info", "What a mesh, history or result file holds");
+  info.add_option("file", file, "The file")->required();
+
+  auto& keys = *app.add_subcommand("keys", "Every key of the case file with its default and meaning");
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    int code = error.get_exit_code();
+    if (comm.is_root()) code = app.exit(error);
+    return code == 0 ? 0 : 2;
+  }
+  set_up_log(comm.is_root(), quiet);
+
+  return guarded(comm, [&] {
+    if (run) return run_verb(arguments, comm);
+    if (check) return check_verb(arguments, comm);
+    if (derive) return derive_verb(file, center, comm);
+    if (info) return info_verb(file, comm);
+    if (keys && comm.is_root()) fmt::print("{}", describe_case_keys());
+    return RunStatus::completed;
+  });
+}

@@ -1,0 +1,59 @@
+#include "app/pictures.hpp"
+
+#include "io/vtkhdf.hpp"
+
+namespace alphadot {
+
+namespace {
+
+Real pressure_coefficient(Real pressure, const FreestreamSettings& stream) {
+  return 2 * (pressure - 1 / stream.gamma) / (stream.mach * stream.mach);
+}
+
+void write_flow_picture(const std::string& path, const Setup& setup, const FlowField<Real>& flow,
+                        const Communicator& comm) {
+  const auto cells = static_cast<std::size_t>(setup.domain.owned_cells);
+  const auto& stream = setup.settings.freestream;
+  std::vector<Real> density(cells), pressure(cells), mach(cells), cp(cells), rank(cells, comm.rank());
+  std::vector<Vec3> speed(cells);
+  for (std::size_t i = 0; i < cells; ++i) {
+    const auto& w = flow[static_cast<Index>(i)];
+    density[i] = w[0];
+    pressure[i] = w[4];
+    speed[i] = velocity(w);
+    mach[i] = norm(speed[i]) / sound_speed(w, stream.gamma);
+    cp[i] = pressure_coefficient(w[4], stream);
+  }
+  write_flow(path, setup.domain,
+             {{"density", density},
+              {"pressure", pressure},
+              {"mach", mach},
+              {"cp", cp},
+              {"velocity", speed},
+              {"rank", rank}},
+             comm);
+}
+
+void write_surface_picture(const std::string& path, const Setup& setup, const ImplicitIteration& iteration,
+                           const Communicator& comm) {
+  const auto faces = setup.domain.boundary_faces.size();
+  std::vector<Real> pressure(faces), cp(faces);
+  for (std::size_t i = 0; i < faces; ++i) {
+    pressure[i] = iteration.residual().face_state(iteration.flow(), setup.domain.boundary_faces[i].cell,
+                                                  setup.domain.boundary_center[i],
+                                                  iteration.discretization().space().order)[4];
+    cp[i] = pressure_coefficient(pressure[i], setup.settings.freestream);
+  }
+  write_surface(path, setup.domain, {{"pressure", pressure}, {"cp", cp}}, comm);
+}
+
+}  // namespace
+
+void write_pictures(const std::string& folder, const Setup& setup, const ImplicitIteration& iteration,
+                    const Communicator& comm) {
+  if (setup.settings.output.flow) write_flow_picture(folder + "/flow.vtkhdf", setup, iteration.flow(), comm);
+  if (setup.settings.output.surface)
+    write_surface_picture(folder + "/surface.vtkhdf", setup, iteration, comm);
+}
+
+}  // namespace alphadot

@@ -1,0 +1,77 @@
+#include "app/setup.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <utility>
+
+#include "core/error.hpp"
+#include "io/case_file.hpp"
+#include "io/mesh_reader.hpp"
+
+namespace alphadot {
+
+Case load_case(const std::string& path, const std::vector<std::string>& overrides, const Communicator& comm) {
+  std::string text;
+  comm.on_root([&] {
+    std::ifstream in(path, std::ios::binary);
+    if (!in)
+      throw InputError(path, 0, "the case file cannot be opened", "check the path and its permissions");
+    text.assign(std::istreambuf_iterator<char>(in), {});
+  });
+  text = comm.broadcast(text);
+  Case out;
+  comm.on_all([&] { out = parse_case(text, path, overrides); });
+  return out;
+}
+
+namespace {
+
+std::vector<BoundaryKind> match_patches(const Case& settings, const std::vector<std::string>& patch_names) {
+  std::vector<Problem> problems;
+  std::vector<BoundaryKind> kinds;
+  for (const auto& name : patch_names) {
+    const auto found = settings.boundary.find(name);
+    if (found == settings.boundary.end())
+      problems.push_back(
+          {settings.file, 0, fmt::format("patch \"{}\" of the mesh has no boundary condition", name),
+           fmt::format("add {} = \"wall\", \"symmetry\", \"farfield\", ... to [boundary]", name)});
+    else
+      kinds.push_back(found->second);
+  }
+  for (const auto& [name, kind] : settings.boundary)
+    if (std::ranges::find(patch_names, name) == patch_names.end())
+      problems.push_back({settings.file, 0,
+                          fmt::format("[boundary] names \"{}\", which the mesh does not have", name),
+                          fmt::format("its patches are {}", fmt::join(patch_names, ", "))});
+  if (!problems.empty()) throw InputError(std::move(problems));
+  return kinds;
+}
+
+}  // namespace
+
+Setup load_setup(const Case& settings, const Communicator& comm) {
+  Setup out;
+  out.settings = settings;
+  out.mesh.file = settings.mesh.file;
+  Mesh mesh;
+  comm.on_root([&] {
+    mesh = read_mesh(settings.mesh.file);
+    mesh.validate();
+    std::vector<std::string> names;
+    for (const auto& patch : mesh.patches) names.push_back(patch.name);
+    match_patches(settings, names);
+    out.mesh.hash = mesh.hash();
+  });
+  out.mesh.hash = comm.broadcast(out.mesh.hash);
+  out.domain = distribute(mesh, comm, settings.mesh.scale);
+  out.mesh.cells = out.domain.global_cells;
+  out.mesh.points = out.domain.global_points;
+  out.patch_kinds = match_patches(settings, out.domain.patch_names);
+  return out;
+}
+
+}  // namespace alphadot

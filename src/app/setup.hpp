@@ -1,0 +1,29 @@
+// From the command line's case file to this rank's share of the mesh.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/case.hpp"
+#include "core/communicator.hpp"
+#include "io/result.hpp"
+#include "partition/subdomain.hpp"
+
+namespace alphadot {
+
+/// What the verbs start from, the same on every rank but for the subdomain.
+struct Setup {
+  Case settings;
+  MeshResult mesh;
+  Subdomain domain;
+  std::vector<BoundaryKind> patch_kinds;  ///< of every patch of the mesh, in its order
+};
+
+/// Reads and checks the case file (on the root; broadcast). Collective. Throws InputError on every rank.
+Case load_case(const std::string& path, const std::vector<std::string>& overrides, const Communicator& comm);
+
+/// Reads, checks and distributes the mesh of a case and matches its patches with [boundary]. Collective.
+/// Throws InputError on every rank.
+Setup load_setup(const Case& settings, const Communicator& comm);
+
+}  // namespace alphadot

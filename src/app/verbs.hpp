@@ -1,0 +1,31 @@
+// What the program can be asked to do; one function a verb.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/communicator.hpp"
+#include "core/run_status.hpp"
+
+namespace alphadot {
+
+struct CaseArguments {
+  std::string case_file;
+  std::vector<std::string> overrides;  ///< "key=value"
+  std::string folder;                  ///< of the run; empty: as the case says
+};
+
+/// Steady state, then the motion that the case asks for, derivatives, and everything written into the run's
+/// folder.
+RunStatus run_verb(const CaseArguments& arguments, const Communicator& comm);
+
+/// Reads and checks case and mesh, prints what a run would work on.
+RunStatus check_verb(const CaseArguments& arguments, const Communicator& comm);
+
+/// Derivatives from a history file, about any centre along the axis (NaN: that of the history).
+RunStatus derive_verb(const std::string& history_file, Real center_x, const Communicator& comm);
+
+/// Prints what a file is and holds: mesh, history or result.
+RunStatus info_verb(const std::string& file, const Communicator& comm);
+
+}  // namespace alphadot

@@ -1,0 +1,47 @@
+// How a run ended, and what the shell is told.
+#pragma once
+
+#include <string>
+
+namespace alphadot {
+
+/// converged: a steady state to its tolerance. completed: a motion to its end, or a steady march that used up
+/// its iterations. interrupted: stopped by a signal or on request. diverged: the flow became unphysical.
+/// error: bad input or environment.
+enum class RunStatus { converged, completed, interrupted, diverged, error };
+
+/// "converged", ...
+inline std::string to_string(RunStatus status) {
+  switch (status) {
+    case RunStatus::converged:
+      return "converged";
+    case RunStatus::completed:
+      return "completed";
+    case RunStatus::interrupted:
+      return "interrupted";
+    case RunStatus::diverged:
+      return "diverged";
+    case RunStatus::error:
+      break;
+  }
+  return "error";
+}
+
+/// Exit code of the program: 0 converged or completed, 1 error, 3 interrupted, 4 diverged. (2 is a wrong
+/// command line.)
+inline int exit_code(RunStatus status) {
+  switch (status) {
+    case RunStatus::converged:
+    case RunStatus::completed:
+      return 0;
+    case RunStatus::interrupted:
+      return 3;
+    case RunStatus::diverged:
+      return 4;
+    case RunStatus::error:
+      break;
+  }
+  return 1;
+}
+
+}  // namespace alphadot

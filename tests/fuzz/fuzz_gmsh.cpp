@@ -1,0 +1,7 @@
+#include "fuzz/check_mesh.hpp"
+#include "io/gmsh_reader.hpp"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  alphadot::fuzz::check_mesh([&] { return alphadot::read_gmsh(alphadot::fuzz::text(data, size), "fuzz"); });
+  return 0;
+}

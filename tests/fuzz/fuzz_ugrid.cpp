@@ -1,0 +1,15 @@
+#include "fuzz/check_mesh.hpp"
+#include "io/ugrid_reader.hpp"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace alphadot;
+  const std::string_view content = fuzz::text(data, size);
+  for (const Encoding encoding : {Encoding::big_endian, Encoding::little_endian})
+    fuzz::check_mesh([&] { return read_ugrid(content, "fuzz", encoding); });
+  try {
+    read_mapbc(content, "fuzz.mapbc");
+  } catch (const InputError&) {
+    // Refusing is as good.
+  }
+  return 0;
+}

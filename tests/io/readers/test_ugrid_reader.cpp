@@ -1,0 +1,106 @@
+// read_ugrid and read_mapbc on sound and broken files.
+#include "io/ugrid_reader.hpp"
+
+#include "io/readers/small_meshes.hpp"
+
+namespace alphadot {
+namespace {
+
+using test::expect_parts;
+using test::ugrid;
+
+std::string error_in(const std::string& content, Encoding encoding = Encoding::big_endian) {
+  return test::error_of([&] { read_ugrid(content, "mesh.b8.ugrid", encoding); });
+}
+
+/// The big-endian mesh with another integer at `byte`.
+std::string with_int(std::size_t byte, std::int32_t value) {
+  return ugrid(Encoding::big_endian)
+      .replace(byte, 4, test::Writer(Encoding::big_endian).ints({value}).content());
+}
+
+constexpr std::size_t points_start = 4 * 7;
+constexpr std::size_t triangles_start = points_start + 5 * 24;
+constexpr std::size_t ids_start = triangles_start + 6 * 12;
+constexpr std::size_t cells_start = ids_start + 6 * 4;
+
+TEST(UgridReader, ReadsEitherByteOrder) {
+  for (const Encoding encoding : {Encoding::big_endian, Encoding::little_endian})
+    test::expect_two_cells(read_ugrid(ugrid(encoding), "mesh", encoding), "patch_1", "patch_2");
+}
+
+TEST(UgridReader, TakesNamesAndJoinsSurfacesOfOneName) {
+  const std::string content = ugrid(Encoding::big_endian);
+  test::expect_two_cells(read_ugrid(content, "mesh", Encoding::big_endian, {{1, "wall"}, {3, "none"}}),
+                         "wall", "patch_2");
+  const Mesh joined = read_ugrid(content, "mesh", Encoding::big_endian, {{1, "wall"}, {2, "wall"}});
+  ASSERT_EQ(joined.patches.size(), 1u);
+  EXPECT_EQ(joined.patches[0].triangles.size(), 6u);
+}
+
+TEST(UgridReader, SurfaceIdsMayAlternate) {
+  const Mesh mesh = read_ugrid(with_int(ids_start + 4, 2), "mesh", Encoding::big_endian);
+  ASSERT_EQ(mesh.patches.size(), 2u);
+  EXPECT_EQ(mesh.patches[0].triangles.size(), 2u);
+  EXPECT_EQ(mesh.patches[1].triangles.size(), 4u);
+}
+
+TEST(UgridReader, PassesOverWhatFollowsTheCells) {
+  const std::string content = ugrid(Encoding::big_endian) + std::string(9, '\xff');
+  test::expect_two_cells(read_ugrid(content, "mesh", Encoding::big_endian), "patch_1", "patch_2");
+}
+
+TEST(UgridErrors, Headers) {
+  expect_parts(error_in(ugrid(Encoding::little_endian)), {"little-endian", "extension .lb8.ugrid"});
+  expect_parts(error_in(ugrid(Encoding::big_endian), Encoding::little_endian),
+               {"big-endian", "extension .b8.ugrid"});
+  for (std::size_t i = 0; i < 7; ++i)
+    for (const std::int32_t count : {-1, 100, 0x7fffffff})
+      expect_parts(error_in(with_int(4 * i, count)),
+                   {"mesh.b8.ugrid: the header announces more than", "bytes"});
+  expect_parts(error_in(with_int(12, 0)), {"no tetrahedra"});
+  expect_parts(error_in(with_int(16, 1) + std::string(20, '\1')), {"1 pyramids"});
+  expect_parts(error_in(with_int(8, 3) + std::string(60, '\1')), {"3 quadrilaterals"});
+}
+
+TEST(UgridErrors, Records) {
+  expect_parts(error_in(with_int(points_start, 0x7ff00000)),
+               {"x of a point is not a finite number", "byte 28"});
+  expect_parts(error_in(with_int(triangles_start, 6)), {"point 6 of 5", "byte 148"});
+  expect_parts(error_in(with_int(cells_start + 4, 0)), {"point 0 of 5"});
+}
+
+TEST(UgridErrors, TooManyPatches) {
+  // As many surfaces as triangles.
+  const std::int32_t count = 10'001;
+  test::Writer writer(Encoding::big_endian);
+  writer.ints({4, count, 0, 1, 0, 0, 0}).reals({0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1});
+  for (std::int32_t i = 0; i < count; ++i) writer.ints({1, 2, 3});
+  for (std::int32_t i = 0; i < count; ++i) writer.ints({i});
+  writer.ints({1, 2, 3, 4});
+  expect_parts(error_in(writer.content()), {"more than 10000 boundary patches"});
+}
+
+TEST(UgridErrors, Truncation) {
+  const std::string content = ugrid(Encoding::big_endian);
+  for (std::size_t size = 0; size < content.size(); ++size)
+    EXPECT_NE(error_in(content.substr(0, size)), "") << "cut after " << size << " bytes";
+}
+
+TEST(Mapbc, ReadsNames) {
+  const SurfaceNames names = read_mapbc("3\n1 4000 wing upper\n2  5000  farfield\r\n7 6662\n", "mesh.mapbc");
+  EXPECT_EQ(names, (SurfaceNames{{1, "wing"}, {2, "farfield"}}));
+}
+
+TEST(Mapbc, RefusesDamagedFiles) {
+  const auto error = [](const char* content) {
+    return test::error_of([&] { read_mapbc(content, "mesh.mapbc"); });
+  };
+  expect_parts(error(""), {"mesh.mapbc:1: "});
+  expect_parts(error("30\n1 4000 wing\n"), {"the number of surfaces is 30"});
+  expect_parts(error("2\n1 4000 wing\n"), {"mesh.mapbc:3: ", "a surface id"});
+  expect_parts(error("1\nwing 4000\n"), {"mesh.mapbc:2: ", "'wing'"});
+}
+
+}  // namespace
+}  // namespace alphadot
