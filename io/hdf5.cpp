@@ -6,94 +6,11 @@
 #include <filesystem>
 
 #include "core/error.hpp"
+#include "io/hdf5_calls.hpp"
 #include "io/hdf5_driver.hpp"
 
 namespace alphadot::hdf5 {
 namespace {
-
-template <class T>
-hid_t type_of() {
-  if constexpr (std::is_same_v<T, double>)
-    return H5T_NATIVE_DOUBLE;
-  else if constexpr (std::is_same_v<T, float>)
-    return H5T_NATIVE_FLOAT;
-  else if constexpr (std::is_same_v<T, std::int32_t>)
-    return H5T_NATIVE_INT32;
-  else if constexpr (std::is_same_v<T, std::int64_t>)
-    return H5T_NATIVE_INT64;
-  else
-    return H5T_NATIVE_UINT8;
-}
-
-/// The deepest entry of HDF5's error stack; of an error of the system only its message.
-std::string reason() {
-  std::string text;
-  const auto first = [](unsigned, const H5E_error2_t* error, void* out) -> herr_t {
-    auto& found = *static_cast<std::string*>(out);
-    if (found.empty() && error->desc) found = error->desc;
-    return 0;
-  };
-  H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, first, &text);
-  const std::string mark = "error message = '";
-  if (const auto begin = text.find(mark); begin != std::string::npos) {
-    text.erase(0, begin + mark.size());
-    text.resize(std::min(text.size(), text.find('\'')));
-  }
-  return text;
-}
-
-/// Throws for the HDF5 call that has just failed.
-[[noreturn]] void fail(const std::string& file, const std::string& what) {
-  const std::string why = reason();
-  throw InputError(file, 0, what + (why.empty() ? "" : ": " + why));
-}
-
-/// `id` in a handle; throws when the call that gave it failed.
-Handle owned(hid_t id, Handle::Close close, const std::string& file, const std::string& what) {
-  if (id < 0) fail(file, what);
-  return Handle(id, close);
-}
-
-void check(herr_t status, const std::string& file, const std::string& what) {
-  if (status < 0) fail(file, what);
-}
-
-/// A property list of `kind` that leaves times out of the file, so that equal runs write equal bytes.
-Handle without_times(hid_t kind) {
-  Handle list(H5Pcreate(kind), H5Pclose);
-  H5Pset_obj_track_times(list.id(), false);
-  return list;
-}
-
-/// Links that make the groups on their way: "total/CA".
-Handle with_groups_on_the_way() {
-  Handle list(H5Pcreate(H5P_LINK_CREATE), H5Pclose);
-  H5Pset_create_intermediate_group(list.id(), 1);
-  return list;
-}
-
-Handle access_list() {
-  Handle list(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
-  H5Pset_fclose_degree(list.id(), H5F_CLOSE_STRONG);
-  H5Pset_file_locking(list.id(), false, true);  // files are replaced whole, never written while read
-  return list;
-}
-
-/// A string type of exactly `size` bytes, without a final NUL.
-Handle text_type(std::size_t size) {
-  Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
-  H5Tset_size(type.id(), std::max<std::size_t>(size, 1));
-  H5Tset_strpad(type.id(), H5T_STR_NULLPAD);
-  H5Tset_cset(type.id(), H5T_CSET_UTF8);
-  return type;
-}
-
-Handle space_of(GlobalIndex rows, GlobalIndex columns, GlobalIndex most_rows) {
-  const std::array<hsize_t, 2> size{static_cast<hsize_t>(rows), static_cast<hsize_t>(columns)};
-  const std::array<hsize_t, 2> limit{most_rows < 0 ? H5S_UNLIMITED : static_cast<hsize_t>(most_rows),
-                                     size[1]};
-  return Handle(H5Screate_simple(columns > 0 ? 2 : 1, size.data(), limit.data()), H5Sclose);
-}
 
 /// Reads one text, of fixed or variable length, through `read(memory type, buffer)`.
 template <class Read>

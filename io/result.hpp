@@ -47,11 +47,12 @@ struct Result {
   MeshResult mesh;
   ReferenceSettings reference;
   FreestreamSettings freestream;
-  std::string rate;                               ///< how rates are made dimensionless, "length / (2 V)"
-  std::string axes;                               ///< of forces and moments
-  NamedValues forces;                             ///< CA CY CN Cl Cm Cn of the whole configuration
-  std::map<std::string, NamedValues> components;  ///< the same by patch
-  std::vector<std::string> excluded;              ///< patches left out of the forces (sting, jet)
+  std::string rate = "times length / (2 V)";  ///< how rates are made dimensionless
+  /// Of forces and moments.
+  std::string axes = "mesh axes x aft, y starboard, z up; Cl Cm Cn about x forward, y starboard, z down";
+  NamedValues forces;                                   ///< CA CY CN Cl Cm Cn of the whole configuration
+  std::map<std::string, NamedValues> components;        ///< the same by patch
+  std::vector<std::string> excluded;                    ///< patches left out of the forces (sting, jet)
   std::map<std::string, DerivativeResult> derivatives;  ///< by name, "Cm_alphadot"; per radian
   PerformanceResult performance;
   Provenance provenance;

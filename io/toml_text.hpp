@@ -13,13 +13,11 @@ std::string toml_string(std::string_view text);
 
 /// What makes `text` unsafe to hand to the TOML library (toml++ 3.3), with its line; line 0 when nothing
 /// does.
-/// - Keys of more than 16 parts: the library bounds the depth of arrays and inline tables but not of dotted
-///   keys, and destroys its tree recursively.
-/// - Control characters, and those that are not ASCII outside quotes and comments: TOML has no use for them,
-/// and some
-///   lead the library into code that it declares unreachable.
-/// - Quotes where none can open, and multi-line text: without it one pass over the quotes of each line is
-/// exact.
+/// - Keys of more than 16 parts: the library bounds the depth of arrays and inline tables but not that of
+///   dotted keys, and destroys its tree recursively.
+/// - Control characters, and outside quotes and comments those that are not ASCII: TOML has no use for them,
+///   and some lead the library into code that it declares unreachable.
+/// - Quotes where none can open, and multi-line text: without them one pass over each line is exact.
 Problem unsafe_line(std::string_view text);
 
 }  // namespace alphadot

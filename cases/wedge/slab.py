@@ -15,7 +15,7 @@ import numpy as np
 
 import meshing
 
-LAYERS = 4  # of prisms, across the slab; even
+LAYERS = 2  # of prisms across the slab; even, and the fewest that leave every cell with at most one face on a wall or plane
 LAYER_HEIGHT = 0.9  # in h; gives the best tetrahedra from prisms over triangles of side h
 
 # Far field: the wedge z <= FAR_HEIGHT + tan(FAR_ANGLE) (x - FAR_START), outside the shocks of a 5-degree section for M >= 2 and

@@ -119,8 +119,8 @@ class Run {
 
   RunStatus steady() {
     const Case& settings = setup_.settings;
-    const Conditions<Real> conditions{free_stream(motion_.wind(), settings.freestream.gamma),
-                                      {{}, {}, settings.motion.axis_point}};
+    const auto conditions =
+        steady_conditions(motion_.wind(), settings.motion.axis_point, settings.freestream.gamma);
     iteration_.set_uniform(conditions.free_stream);
     ProgressLines lines(settings);
     const auto result = march_to_steady(iteration_, conditions, settings.steady, settings.space.order,

@@ -30,6 +30,8 @@ class ImplicitIteration {
   FlowField<Real>& flow() { return flow_; }
   const FlowField<Real>& flow() const { return flow_; }
   const Residual<Real>& residual() const { return residual_; }
+  LinearSolver& linear_solver() { return *solver_; }
+  const Vec3& moment_center() const { return moment_center_; }
   const Discretization& discretization() const { return discretization_; }
   const Communicator& communicator() const { return comm_; }
   std::span<Conserved<Real>> residual_values() { return values_; }

@@ -100,5 +100,8 @@ void Reconstruction<T>::fit_cells(const FlowField<T>& flow) {
 }
 
 template class Reconstruction<Real>;
+template class Reconstruction<Dual<1>>;
+template class Reconstruction<Dual<2>>;
+template class Reconstruction<Dual<3>>;
 
 }  // namespace alphadot

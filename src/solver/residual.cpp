@@ -1,6 +1,7 @@
 #include "solver/residual.hpp"
 
 #include <algorithm>
+#include <type_traits>
 
 #include "core/dual.hpp"
 #include "euler/boundary.hpp"
@@ -100,14 +101,18 @@ void Residual<T>::rotating_axes(const FlowField<T>& flow, const Conditions<T>& c
                                 std::span<Conserved<T>> residual) {
   const Subdomain& domain = discretization_.domain();
   const auto& rotation = conditions.grid.rotation;
-  if (value_of(dot(rotation, rotation)) == 0) return;
+  if constexpr (std::is_same_v<T, Real>)
+    if (dot(rotation, rotation) == 0) return;
   for (Index cell = 0; cell < domain.owned_cells; ++cell) {
     const T mass = domain.volume[cell] * flow[cell][0];
-    const auto turn = mass * cross(rotation, velocity(flow[cell]));
+    const auto turn = mass * cross(rotation, velocity(flow[cell]) - conditions.turning_stream);
     for (int i = 0; i < 3; ++i) residual[cell][i + 1] += turn[i];
   }
 }
 
 template class Residual<Real>;
+template class Residual<Dual<1>>;
+template class Residual<Dual<2>>;
+template class Residual<Dual<3>>;
 
 }  // namespace alphadot

@@ -62,7 +62,6 @@ TEST_P(Steady, DoesNotDependOnTheImplicitScheme) {
                          std::make_unique<BlockLuSgs>(box.discretization, comm, 6));
   const SteadyFlow scalar(box, ramp_conditions(), orders, std::make_unique<LuSgs>(box.discretization, comm));
   EXPECT_EQ(scalar.result.status, RunStatus::converged);
-  printf("its %d %d\n", block.result.iterations, scalar.result.iterations);
   expect_same(states(scalar, box), states(block, box), 1e-9);
 }
 

@@ -1,0 +1,139 @@
+#!/usr/bin/python3
+"""Bad input ends the program with one clear error that names the file, and a non-zero exit code on every rank, in time."""
+
+from __future__ import annotations
+
+import tempfile
+import unittest
+from pathlib import Path
+
+from program import CASE, RANKS, box, gmsh_text, run, write_case
+
+
+class Faults(unittest.TestCase):
+    def setUp(self) -> None:
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.folder = Path(temporary.name)
+
+    def refused(self, *says: str, case: str = CASE, mesh: str | None = None, out: str = "out", arguments: tuple = ()) -> None:
+        """The run of this case and mesh fails on every rank with one error that contains all of `says`."""
+        write_case(self.folder, case, mesh)
+        outcome = run(self.folder, "run", "case.toml", "--out", out, *arguments)
+        self.assertEqual(outcome.codes, [1] * RANKS, outcome.err)
+        self.assertEqual(len(outcome.errors), 1, outcome.err)
+        for part in says:
+            self.assertIn(part, outcome.errors[0])
+        self.assertNotIn("internal error", outcome.err)
+        self.assertFalse((self.folder / out / "result.json").exists())
+
+    def changed_mesh(self, old: str, new: str) -> tuple[str, int]:
+        """The cube's mesh file with one text replaced, and the line of that."""
+        text = gmsh_text(*box(2))
+        self.assertIn(old, text)
+        return text.replace(old, new, 1), text[: text.index(old)].count("\n") + 1
+
+    def test_missing_case_file(self) -> None:
+        outcome = run(self.folder, "run", "none.toml")
+        self.assertEqual(outcome.codes, [1] * RANKS)
+        self.assertEqual(len(outcome.errors), 1, outcome.err)
+        self.assertIn("none.toml", outcome.errors[0])
+
+    def test_missing_mesh_file(self) -> None:
+        self.refused("none.msh", case=CASE.replace("box.msh", "none.msh"))
+
+    def test_patch_without_boundary_condition(self) -> None:
+        self.refused("case.toml", '"wall"', case=CASE.replace('wall = "wall"\n', ""))
+
+    def test_boundary_condition_without_patch(self) -> None:
+        self.refused("case.toml", '"fins"', case=CASE + 'fins = "wall"\n')
+
+    def test_mesh_without_a_named_group(self) -> None:
+        points, cells, patches = box(2)
+        del patches["wall"]
+        self.refused("box.msh", mesh=gmsh_text(points, cells, patches), case=CASE.replace('wall = "wall"\n', ""))
+
+    def test_inverted_cell(self) -> None:
+        points, cells, patches = box(2)
+        a, b, c, d = cells[20]
+        cells[20] = (a, c, b, d)
+        self.refused("box.msh", "20", mesh=gmsh_text(points, cells, patches))
+
+    def test_flat_cell(self) -> None:
+        points, cells, patches = box(2)
+        points[13] = (0.0, 0.5, 0.5)  # the middle of the cube, moved onto its side
+        self.refused("box.msh", "volume", mesh=gmsh_text(points, cells, patches))
+
+    def test_unknown_key(self) -> None:
+        self.refused("case.toml:5", "machh", "did you mean freestream.mach?", case=CASE.replace("mach =", "mach = 2.0\nmachh ="))
+
+    def test_negative_mach(self) -> None:
+        self.refused("case.toml:5", "mach", case=CASE.replace("mach = 2.0", "mach = -2.0"))
+
+    def test_negative_mach_by_override(self) -> None:
+        self.refused("--set freestream.mach=-2", arguments=("--set", "freestream.mach=-2"))
+
+    def test_nan_in_the_case(self) -> None:
+        self.refused("case.toml:6", "alpha", case=CASE.replace("alpha = 1.0", "alpha = nan"))
+
+    def test_nan_in_the_mesh(self) -> None:
+        mesh, line = self.changed_mesh("\n14 0.5 0.5 0.5\n", "\n14 nan 0.5 0.5\n")
+        self.refused(f"box.msh:{line + 1}", mesh=mesh)
+
+    def test_broken_toml(self) -> None:
+        self.refused("case.toml:4", case=CASE.replace("[freestream]", "[freestream"))
+
+    def test_truncated_mesh(self) -> None:
+        mesh = gmsh_text(*box(2))
+        self.refused("box.msh:", mesh=mesh[: len(mesh) // 2])
+
+    def test_empty_mesh(self) -> None:
+        self.refused("box.msh", mesh="")
+
+    def test_more_ranks_than_cells(self) -> None:
+        points = [(0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)]
+        cells = [(0, 1, 2, 3)] if RANKS > 1 else []
+        patches = {"wall": [(0, 1, 2)], "farfield": [(0, 1, 3), (0, 2, 3), (1, 2, 3)]}
+        self.refused("box.msh", mesh=gmsh_text(points, cells, patches))
+
+    def test_folder_below_a_file(self) -> None:
+        (self.folder / "file").touch()
+        self.refused("file/out", out="file/out")
+
+    def test_folder_that_cannot_be_made(self) -> None:
+        self.refused("/proc/out", out="/proc/out")
+
+    def test_wrong_mesh_format(self) -> None:
+        self.refused("box.msh:1", mesh="solid cube\n facet normal 0 0 1\n")
+
+    def test_mesh_with_an_unknown_suffix(self) -> None:
+        (self.folder / "box.stl").write_text("solid cube\n")
+        self.refused("box.stl", case=CASE.replace("box.msh", "box.stl"))
+
+    def test_every_problem_of_a_case_at_once(self) -> None:
+        case = CASE.replace("mach = 2.0", "mach = -2.0").replace('farfield = "farfield"', 'farfield = "wal"')
+        write_case(self.folder, case)
+        outcome = run(self.folder, "check", "case.toml")
+        self.assertEqual(outcome.codes, [1] * RANKS)
+        self.assertEqual(len(outcome.errors), 2, outcome.err)
+        self.assertIn("case.toml:5", outcome.errors[0])
+        self.assertIn("case.toml:10", outcome.errors[1])
+
+    def test_wrong_command_line(self) -> None:
+        for arguments in ((), ("fly",), ("run",), ("run", "case.toml", "--fast")):
+            with self.subTest(arguments=arguments):
+                self.assertEqual(run(self.folder, *arguments).codes, [2] * RANKS)
+
+    def test_files_of_another_kind(self) -> None:
+        (self.folder / "history.h5").write_text("not HDF5")
+        (self.folder / "result.json").write_text("{}")
+        for arguments in (("derive", "history.h5"), ("derive", "none.h5"), ("info", "result.json"), ("info", "none.msh")):
+            with self.subTest(arguments=arguments):
+                outcome = run(self.folder, *arguments)
+                self.assertEqual(outcome.codes, [1] * RANKS, outcome.err)
+                self.assertEqual(len(outcome.errors), 1, outcome.err)
+                self.assertIn(arguments[1], outcome.errors[0])
+
+
+if __name__ == "__main__":
+    unittest.main()
