@@ -38,7 +38,7 @@ Problem unknown_key(const std::string& path, int line) {
     meant = prefix + sibling;
   const std::string shown = path.size() <= 80 ? path : path.substr(0, 80) + "...";
   return {"", line, "unknown key " + shown,
-          meant.empty() ? "alphadot help case lists the keys" : "did you mean " + meant + "?"};
+          meant.empty() ? "alphadot keys lists the keys" : "did you mean " + meant + "?"};
 }
 
 bool is_table(const std::string& path) {

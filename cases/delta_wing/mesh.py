@@ -14,20 +14,21 @@ from collections.abc import Callable
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
-sys.path.insert(0, str(HERE.parents[1] / "scripts"))
+sys.path[:0] = [str(HERE.parents[1] / "scripts"), str(HERE.parent / "sharp_cone")]
 
 try:
     import gmsh
     import numpy as np
 
     import meshing
+    import sector
 except ImportError as error:
     sys.exit(f"mesh.py: {error}; install the Debian packages python3-gmsh and python3-numpy and run with /usr/bin/python3")
 
 SWEEP, RIDGE_ANGLE = 65.0, 3.0  # degrees: of the leading edge, and between the ridge and the plane of the wing
 SPAN = 1.0 / math.tan(math.radians(SWEEP))  # half span at the base
 HEIGHT = math.tan(math.radians(RIDGE_ANGLE))  # half thickness at the base
-LEVELS = {"tiny": 0.14, "coarse": 0.06}  # cell size on the wing at the base, in root chords
+LEVELS = {"tiny": 0.12, "coarse": 0.05}  # cell size on the wing at the base, in root chords
 FLOOR = 0.08  # nearer to the apex than this, cells do not become smaller
 
 # Far field: a frustum outside the bow shock for M >= 1.8 and |alpha| <= 3 deg, whose waves therefore never come back.
@@ -40,6 +41,7 @@ def build_quarter() -> None:
     occ = gmsh.model.occ
     far_radius = FAR_RADIUS + (FAR_END - FAR_START) * math.tan(math.radians(FAR_ANGLE))
     frustum = occ.addCone(FAR_START, 0, 0, FAR_END - FAR_START, 0, 0, FAR_RADIUS, far_radius, angle=math.pi / 2)
+    occ.rotate([(3, frustum)], 0, 0, 0, 1, 0, 0, -math.pi / 2)  # gmsh begins a cone about x at z > 0 > y
     corners = [occ.addPoint(*p) for p in ((0, 0, 0), (1, 0, 0), (1, SPAN, 0), (1, 0, HEIGHT))]
     line = {(i, j): occ.addLine(corners[i], corners[j]) for i in range(4) for j in range(i + 1, 4)}
     sides = [(0, 1, 2), (0, 1, 3), (0, 2, 3), (1, 2, 3)]
@@ -76,9 +78,9 @@ def build(h: float, arguments: argparse.Namespace) -> tuple[meshing.TetMesh, lis
     """The mesh, and lines that compare its patches with the exact wing."""
     gmsh.model.add("quarter")
     build_quarter()
-    quarter = meshing.mesh_sector(size_field(h), patch_name, {"symmetry_y": 1, "symmetry_z": 2})
-    mesh, symmetry = meshing.unfolded(quarter, arguments.model)
-    share = meshing.MODELS[arguments.model]
+    quarter = sector.mesh_sector(size_field(h), patch_name, {"symmetry_y": 1, "symmetry_z": 2})
+    mesh, symmetry = sector.unfolded(quarter, arguments.model)
+    share = sector.MODELS[arguments.model]
     side = 0.5 * math.hypot(SPAN, HEIGHT, SPAN * HEIGHT)  # of the triangle with its corners at the apex, a tip and the ridge
     exact = {"wing": share * 4.0 * side, "base": share * 2.0 * SPAN * HEIGHT}
     return mesh, meshing.patch_report(mesh, exact) + symmetry
@@ -86,7 +88,7 @@ def build(h: float, arguments: argparse.Namespace) -> tuple[meshing.TetMesh, lis
 
 def main() -> None:
     parser = meshing.command_line(__doc__, LEVELS, "root chord")
-    parser.add_argument("--model", choices=meshing.MODELS, default="half", help="half is y >= 0 (default)")
+    parser.add_argument("--model", choices=sector.MODELS, default="half", help="half is y >= 0 (default)")
     meshing.run(parser, LEVELS, build)
 
 

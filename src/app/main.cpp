@@ -61,6 +61,12 @@ int main(int argc, char** argv) {
   add_case_arguments(run, arguments);
   run.add_option("--out", arguments.folder, "Folder of the run (default: runs/<name of the case file>)");
 
+  auto& derivatives = *app.add_subcommand(
+      "derivatives", "Every stability derivative of a case from linear solves, no time stepping");
+  add_case_arguments(derivatives, arguments);
+  derivatives.add_option("--out", arguments.folder,
+                         "Folder of the run (default: runs/<name of the case file>)");
+
   auto& check = *app.add_subcommand("check", "Check case and mesh without running");
   add_case_arguments(check, arguments);
 
@@ -86,6 +92,7 @@ int main(int argc, char** argv) {
 
   return guarded(comm, [&] {
     if (run) return run_verb(arguments, comm);
+    if (derivatives) return derivatives_verb(arguments, comm);
     if (check) return check_verb(arguments, comm);
     if (derive) return derive_verb(file, center, comm);
     if (info) return info_verb(file, comm);

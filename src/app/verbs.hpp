@@ -19,6 +19,10 @@ struct CaseArguments {
 /// folder.
 RunStatus run_verb(const CaseArguments& arguments, const Communicator& comm);
 
+/// Steady state, then the matrix of stability derivatives from linear solves: all six coefficients with
+/// respect to alpha, q and alphadot, and on a full model beta, p, r and betadot.
+RunStatus derivatives_verb(const CaseArguments& arguments, const Communicator& comm);
+
 /// Reads and checks case and mesh, prints what a run would work on.
 RunStatus check_verb(const CaseArguments& arguments, const Communicator& comm);
 

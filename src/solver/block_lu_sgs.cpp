@@ -1,6 +1,7 @@
 #include "solver/block_lu_sgs.hpp"
 
 #include <algorithm>
+#include <experimental/simd>
 
 #include "solver/jacobian.hpp"
 
@@ -19,10 +20,14 @@ void BlockLuSgs::linearise(const FlowField<Real>& flow, const Conditions<Real>& 
 
 namespace {
 
-/// y += sign * A x, column by column.
-inline void multiply_add(float* y, const Block& a, const float* x, float sign) {
+using Lanes = std::experimental::fixed_size_simd<float, 8>;
+
+/// y + A x, column by column. A column is loaded with the three numbers behind it, which land in unused
+/// lanes.
+inline Lanes multiply_add(Lanes y, const Block& a, const float* x) {
   for (int column = 0; column < 5; ++column)
-    for (int row = 0; row < 5; ++row) y[row] += sign * a[5 * column + row] * x[column];
+    y += Lanes(&a[5 * column], std::experimental::element_aligned) * Lanes(x[column]);
+  return y;
 }
 
 }  // namespace
@@ -31,15 +36,16 @@ void BlockLuSgs::sweep(Direction direction, std::span<const Conserved<Real>> res
   const Index cells = discretization_.domain().owned_cells;
   for (Index i = 0; i < cells; ++i) {
     const Index row = direction == Direction::forward ? i : cells - 1 - i;
-    float right[5];
-    for (int k = 0; k < 5; ++k) right[k] = static_cast<float>(-residual[row][k]);
     const auto columns = matrix_.columns(row);
     const auto blocks = matrix_.blocks(row);
+    Lanes sums[2] = {0, 0};  // two, so that one product need not wait for the other
     for (std::size_t j = 0; j < columns.size(); ++j)
-      multiply_add(right, blocks[j], update_[columns[j]].v, -1);
-    SweepState next;
-    multiply_add(next.v, matrix_.inverse_diagonal(row), right, 1);
-    update_[row] = next;
+      sums[j % 2] = multiply_add(sums[j % 2], blocks[j], update_[columns[j]].v);
+    SweepState right;
+    (sums[0] + sums[1]).copy_to(right.v, std::experimental::vector_aligned);
+    for (int k = 0; k < 5; ++k) right.v[k] = -static_cast<float>(residual[row][k]) - right.v[k];
+    multiply_add(0, matrix_.inverse_diagonal(row), right.v)
+        .copy_to(update_[row].v, std::experimental::vector_aligned);
   }
 }
 

@@ -6,7 +6,7 @@ namespace alphadot {
 
 BlockMatrix::BlockMatrix(const Subdomain& domain)
     : begin_(static_cast<std::size_t>(domain.owned_cells) + 1, 0),
-      inverse_diagonal_(static_cast<std::size_t>(domain.owned_cells)),
+      inverse_diagonal_(static_cast<std::size_t>(domain.owned_cells) + 1),
       slot_(domain.faces.size(), {-1, -1}) {
   for (Index cell = 0; cell < domain.owned_cells; ++cell) {
     for (const Index face : domain.cell_faces[cell]) {
@@ -16,7 +16,7 @@ BlockMatrix::BlockMatrix(const Subdomain& domain)
     }
     begin_[cell + 1] = static_cast<Index>(columns_.size());
   }
-  blocks_.resize(columns_.size());
+  blocks_.resize(columns_.size() + 1);
 }
 
 std::size_t BlockMatrix::bytes() const {

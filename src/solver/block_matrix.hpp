@@ -13,7 +13,7 @@ namespace alphadot {
 using Block = std::array<float, 25>;
 
 /// One row a cell: the inverse of its diagonal block and one block for every neighbour, in the order of
-/// Subdomain::cell_faces. 500 bytes a cell.
+/// Subdomain::cell_faces. 500 bytes a cell. Reading a few floats beyond a block is safe.
 class BlockMatrix {
  public:
   explicit BlockMatrix(const Subdomain& domain);

@@ -7,11 +7,12 @@
 
 namespace alphadot {
 
-/// Free stream and grid velocity along the axes in which the flow is solved. On rotating body axes the velocity stays
-/// absolute and only its components turn: the momentum balance gains -rho rotation x (u - turning_stream) in every cell.
-/// The turning stream is zero where the free stream keeps its direction in space (forced pitch: its components turn), and
-/// the free-stream velocity where the flight path turns with the body (steady rotation at constant incidence): what must
-/// stay at rest far away is the air, not its components.
+/// Free stream and grid velocity along the axes in which the flow is solved. On rotating body axes the
+/// velocity stays absolute and only its components turn: the momentum balance gains -rho rotation x (u -
+/// turning_stream) in every cell. The turning stream is zero where the free stream keeps its direction in
+/// space (forced pitch: its components turn), and the free-stream velocity where the flight path turns with
+/// the body (steady rotation at constant incidence): what must stay at rest far away is the air, not its
+/// components.
 template <class T>
 struct Conditions {
   Primitive<T> free_stream;

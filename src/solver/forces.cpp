@@ -21,8 +21,8 @@ std::vector<LoadOf<T>> wall_loads(const Discretization& discretization, const Re
   return loads;
 }
 
-template std::vector<Load> wall_loads(const Discretization&, const Residual<Real>&, const FlowField<Real>&, int,
-                                      const Vec3&);
+template std::vector<Load> wall_loads(const Discretization&, const Residual<Real>&, const FlowField<Real>&,
+                                      int, const Vec3&);
 template std::vector<LoadOf<Dual<1>>> wall_loads(const Discretization&, const Residual<Dual<1>>&,
                                                  const FlowField<Dual<1>>&, int, const Vec3&);
 template std::vector<LoadOf<Dual<2>>> wall_loads(const Discretization&, const Residual<Dual<2>>&,

@@ -17,7 +17,9 @@ struct LoadOf {
     moment += b.moment;
     return *this;
   }
-  friend LoadOf operator-(const LoadOf& a, const LoadOf& b) { return {a.force - b.force, a.moment - b.moment}; }
+  friend LoadOf operator-(const LoadOf& a, const LoadOf& b) {
+    return {a.force - b.force, a.moment - b.moment};
+  }
   friend LoadOf operator*(Real s, const LoadOf& a) { return {s * a.force, s * a.moment}; }
 };
 using Load = LoadOf<Real>;

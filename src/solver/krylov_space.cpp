@@ -39,7 +39,8 @@ std::vector<Real> KrylovSpace::project_out(std::vector<Primitive<Real>>& vector)
   for (int j = 0; j <= size_; ++j) products.push_back(local_dot(basis(j), vector));
   comm_.sum(products);
   for (int j = 0; j <= size_; ++j)
-    for (std::size_t i = 0; i < vector.size(); ++i) vector[i] -= products[static_cast<std::size_t>(j)] * basis(j)[i];
+    for (std::size_t i = 0; i < vector.size(); ++i)
+      vector[i] -= products[static_cast<std::size_t>(j)] * basis(j)[i];
   return products;
 }
 
@@ -68,6 +69,8 @@ Eigen::VectorXd KrylovSpace::weights() const {
   return hessenberg_.topLeftCorner(size_ + 1, size_).colPivHouseholderQr().solve(right);
 }
 
-std::size_t KrylovSpace::bytes() const { return basis_.size() * basis_[0].size() * sizeof(Primitive<Real>); }
+std::size_t KrylovSpace::bytes() const {
+  return basis_.size() * basis_[0].size() * sizeof(Primitive<Real>);
+}
 
 }  // namespace alphadot

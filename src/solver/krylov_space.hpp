@@ -1,4 +1,5 @@
-// GMRES for one right-hand side, driven from outside so that several can share the applications of one operator.
+// GMRES for one right-hand side, driven from outside so that several can share the applications of one
+// operator.
 #pragma once
 
 #include <Eigen/Dense>
@@ -11,8 +12,8 @@
 
 namespace alphadot {
 
-/// A growing orthonormal basis with the least-squares problem of GMRES (Saad & Schultz 1986). Vectors are [owned_cells]
-/// states; norms are over all ranks. Use:
+/// A growing orthonormal basis with the least-squares problem of GMRES (Saad & Schultz 1986). Vectors are
+/// [owned_cells] states; norms are over all ranks. Use:
 ///   start(r0); while not content: w = B direction(); extend(w);   then x += sum of weights()[j] * basis(j).
 class KrylovSpace {
  public:
@@ -22,8 +23,8 @@ class KrylovSpace {
   Real start(std::span<const Primitive<Real>> residual);
   /// The vector to which the operator is to be applied next.
   std::span<const Primitive<Real>> direction() const { return basis_[static_cast<std::size_t>(size_)]; }
-  /// Takes the operator times direction(); returns the norm of the residual that is left. Collective (two all-reduces:
-  /// classical Gram-Schmidt, done twice).
+  /// Takes the operator times direction(); returns the norm of the residual that is left. Collective (two
+  /// all-reduces: classical Gram-Schmidt, done twice).
   Real extend(std::span<const Primitive<Real>> image);
   bool is_full() const { return size_ == capacity_; }
   /// Number of directions used so far.

@@ -14,7 +14,8 @@ using States = std::vector<Primitive<Real>>;
 
 constexpr Real linear_cfl = 1e8;  // no time term: the preconditioner is the plain Jacobian
 
-/// Adds V (dU/dW) w to `image`: the change of the conserved state that goes with a change w of the primitive one.
+/// Adds V (dU/dW) w to `image`: the change of the conserved state that goes with a change w of the primitive
+/// one.
 void add_mass_term(const ImplicitIteration& iteration, std::span<const Primitive<Real>> change,
                    std::span<Conserved<Real>> image) {
   const Subdomain& domain = iteration.discretization().domain();
@@ -34,7 +35,8 @@ template <int N>
 class Lockstep {
  public:
   Lockstep(ImplicitIteration& iteration, const Conditions<Real>& conditions,
-           std::span<const SensitivityProblem> problems, const SensitivityOptions& options, const Vec3& center)
+           std::span<const SensitivityProblem> problems, const SensitivityOptions& options,
+           const Vec3& center)
       : iteration_(iteration),
         comm_(iteration.communicator()),
         problems_(problems),
@@ -192,7 +194,8 @@ template <int N>
 void solve_group(ImplicitIteration& iteration, const Conditions<Real>& conditions,
                  std::span<const SensitivityProblem> problems, const SensitivityOptions& options,
                  std::vector<Sensitivity>& out) {
-  for (auto& result : Lockstep<N>(iteration, conditions, problems, options, iteration.moment_center()).solve())
+  for (auto& result :
+       Lockstep<N>(iteration, conditions, problems, options, iteration.moment_center()).solve())
     out.push_back(std::move(result));
 }
 

@@ -10,13 +10,14 @@
 
 namespace alphadot {
 
-/// One linear problem A U = -(dR/dc) - V dU_rate/dt about a steady flow, A = dR/dW. With the semi-discrete equations
-/// V dU/dt + R(W, c) = 0 and a slow change c(t), W = W0 + W_c c + W_cdot dc/dt + ...:  A W_c = -R_c and
-/// A W_cdot = -V (dU/dW) W_c. No time step, frequency or amplitude enters.
+/// One linear problem A U = -(dR/dc) - V dU_rate/dt about a steady flow, A = dR/dW. With the semi-discrete
+/// equations V dU/dt + R(W, c) = 0 and a slow change c(t), W = W0 + W_c c + W_cdot dc/dt + ...:  A W_c = -R_c
+/// and A W_cdot = -V (dU/dW) W_c. No time step, frequency or amplitude enters.
 struct SensitivityProblem {
   std::string name;
-  ConditionsChange change;                     ///< c; zero for the response to a rate
-  std::span<const Primitive<Real>> rate = {};  ///< W_c of the quantity whose rate this is, [owned_cells]; or empty
+  ConditionsChange change;  ///< c; zero for the response to a rate
+  std::span<const Primitive<Real>> rate =
+      {};  ///< W_c of the quantity whose rate this is, [owned_cells]; or empty
 };
 
 struct Sensitivity {
@@ -24,7 +25,7 @@ struct Sensitivity {
   std::vector<Primitive<Real>> field;  ///< W_c, [owned_cells]
   std::vector<Load> loads;             ///< change of the load of every patch, over all ranks
   Load total;
-  Load total_error;            ///< how far the total may be from that of the exact solution of the linear problem
+  Load total_error;  ///< how far the total may be from that of the exact solution of the linear problem
   Real relative_residual = 1;  ///< |A U + b| / |b|, evaluated, not estimated
   int iterations = 0;
 };
@@ -33,14 +34,14 @@ enum class SensitivityMethod { gmres, march };
 
 struct SensitivityOptions {
   SensitivityMethod method = SensitivityMethod::gmres;
-  Real orders = 6;           ///< decades of the preconditioned residual
-  int restart = 30;          ///< size of the Krylov space
+  Real orders = 6;   ///< decades of the preconditioned residual
+  int restart = 30;  ///< size of the Krylov space
   int max_iterations = 300;
 };
 
-/// Solves all problems, up to three at a time with one differentiated residual, preconditioned by (or, for `march`,
-/// iterated with) the implicit scheme of `iteration`, whose flow must be steady under `conditions`. Throws DivergedError
-/// when a march grows: the steady state then hides an unstable cell. Collective.
+/// Solves all problems, up to three at a time with one differentiated residual, preconditioned by (or, for
+/// `march`, iterated with) the implicit scheme of `iteration`, whose flow must be steady under `conditions`.
+/// Throws DivergedError when a march grows: the steady state then hides an unstable cell. Collective.
 std::vector<Sensitivity> solve_sensitivities(ImplicitIteration& iteration, const Conditions<Real>& conditions,
                                              const std::vector<SensitivityProblem>& problems,
                                              const SensitivityOptions& options);

@@ -3,8 +3,9 @@
 namespace alphadot {
 
 template <int N>
-Tangent<N>::Tangent(const Discretization& discretization, const Communicator& comm, const FlowField<Real>& flow,
-                    const Conditions<Real>& conditions, const Vec3& moment_center)
+Tangent<N>::Tangent(const Discretization& discretization, const Communicator& comm,
+                    const FlowField<Real>& flow, const Conditions<Real>& conditions,
+                    const Vec3& moment_center)
     : discretization_(discretization),
       conditions_(conditions),
       moment_center_(moment_center),
@@ -40,7 +41,8 @@ Vec3Of<Dual<N>> with_changes(const Vec3& value, const std::array<ConditionsChang
 }  // namespace
 
 template <int N>
-void Tangent<N>::apply(const Fields& fields, const std::array<ConditionsChange, N>& changes, const Images& images) {
+void Tangent<N>::apply(const Fields& fields, const std::array<ConditionsChange, N>& changes,
+                       const Images& images) {
   const Index cells = discretization_.domain().owned_cells;
   for (Index cell = 0; cell < cells; ++cell)
     for (int i = 0; i < 5; ++i)

@@ -11,8 +11,8 @@
 
 namespace alphadot {
 
-/// Change of the conditions that goes with one unit of a flight variable. The free stream turns with the axes, as in steady
-/// rotation.
+/// Change of the conditions that goes with one unit of a flight variable. The free stream turns with the
+/// axes, as in steady rotation.
 struct ConditionsChange {
   Vec3 wind;           ///< of the free-stream velocity
   Vec3 grid_velocity;  ///< of the axis point
@@ -35,7 +35,9 @@ class Tangent {
   /// Change of every patch's load that goes with the fields of the latest apply(), of this rank only.
   std::array<std::vector<Load>, N> loads() const;
 
-  std::size_t bytes() const { return flow_.bytes() + residual_.bytes() + values_.size() * sizeof(values_[0]); }
+  std::size_t bytes() const {
+    return flow_.bytes() + residual_.bytes() + values_.size() * sizeof(values_[0]);
+  }
 
  private:
   const Discretization& discretization_;

@@ -16,12 +16,14 @@ class Faults(unittest.TestCase):
         self.addCleanup(temporary.cleanup)
         self.folder = Path(temporary.name)
 
-    def refused(self, *says: str, case: str = CASE, mesh: str | None = None, out: str = "out", arguments: tuple = ()) -> None:
-        """The run of this case and mesh fails on every rank with one error that contains all of `says`."""
+    def refused(
+        self, *says: str, case: str = CASE, mesh: str | None = None, out: str = "out", arguments: tuple = (), errors: int = 1
+    ) -> None:
+        """The run of this case and mesh fails on every rank; the first of its `errors` contains all of `says`."""
         write_case(self.folder, case, mesh)
         outcome = run(self.folder, "run", "case.toml", "--out", out, *arguments)
         self.assertEqual(outcome.codes, [1] * RANKS, outcome.err)
-        self.assertEqual(len(outcome.errors), 1, outcome.err)
+        self.assertEqual(len(outcome.errors), errors, outcome.err)
         for part in says:
             self.assertIn(part, outcome.errors[0])
         self.assertNotIn("internal error", outcome.err)
@@ -57,7 +59,8 @@ class Faults(unittest.TestCase):
         points, cells, patches = box(2)
         a, b, c, d = cells[20]
         cells[20] = (a, c, b, d)
-        self.refused("box.msh", "20", mesh=gmsh_text(points, cells, patches))
+        # It also lies on the wrong side of its neighbours, which is the second error.
+        self.refused("box.msh", "cell 21", "no positive volume", mesh=gmsh_text(points, cells, patches), errors=2)
 
     def test_flat_cell(self) -> None:
         points, cells, patches = box(2)
@@ -65,7 +68,7 @@ class Faults(unittest.TestCase):
         self.refused("box.msh", "volume", mesh=gmsh_text(points, cells, patches))
 
     def test_unknown_key(self) -> None:
-        self.refused("case.toml:5", "machh", "did you mean freestream.mach?", case=CASE.replace("mach =", "mach = 2.0\nmachh ="))
+        self.refused("case.toml:6", "machh", "did you mean freestream.mach?", case=CASE.replace("mach =", "mach = 2.0\nmachh ="))
 
     def test_negative_mach(self) -> None:
         self.refused("case.toml:5", "mach", case=CASE.replace("mach = 2.0", "mach = -2.0"))
@@ -104,7 +107,7 @@ class Faults(unittest.TestCase):
         self.refused("/proc/out", out="/proc/out")
 
     def test_wrong_mesh_format(self) -> None:
-        self.refused("box.msh:1", mesh="solid cube\n facet normal 0 0 1\n")
+        self.refused("box.msh", "$MeshFormat", mesh="solid cube\n facet normal 0 0 1\n")
 
     def test_mesh_with_an_unknown_suffix(self) -> None:
         (self.folder / "box.stl").write_text("solid cube\n")

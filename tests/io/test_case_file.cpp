@@ -167,7 +167,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadCase{"mach = 2\ngamma = 1", 6, "must be a number > 1 and <= 5, not 1"},
         BadCase{"mach = 2\nalpha = 200", 6, "freestream.alpha must be a number >= -180 and <= 180"},
         BadCase{"mach = 2\nmahc = 3", 6, "unknown key freestream.mahc; did you mean freestream.mach?"},
-        BadCase{"mach = 2\nxyzzy = 3", 6, "unknown key freestream.xyzzy; alphadot help case"},
+        BadCase{"mach = 2\nxyzzy = 3", 6, "unknown key freestream.xyzzy; alphadot keys"},
         BadCase{"mach = 2\nflux = \"roe\"", 6, "unknown key freestream.flux; did you mean space.flux?"},
         BadCase{"mach = 2\nmach = 3", 6, "mach"}, BadCase{"mach = ", 5, ""},
         BadCase{"mach = 2\n[spaze]\norder = 1", 6, "unknown key spaze; did you mean space?"},

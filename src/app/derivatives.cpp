@@ -1,0 +1,132 @@
+// The verb "derivatives": the whole matrix of stability derivatives from linear solves about the steady
+// state.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <vector>
+
+#include "analysis/derivatives.hpp"
+#include "analysis/moment_center.hpp"
+#include "analysis/table.hpp"
+#include "app/flow_case.hpp"
+#include "app/loads.hpp"
+#include "core/error.hpp"
+#include "core/log.hpp"
+#include "core/timer.hpp"
+#include "io/files.hpp"
+#include "solver/sensitivity.hpp"
+
+namespace alphadot {
+
+namespace {
+
+/// Change of wind and grid motion per unit of a flight variable: rad for angles, rad per unit time for rates.
+/// The body moves across the wind, which itself stays: with alpha the body sinks at V dalpha, normal to the
+/// flight path.
+ConditionsChange change_of(Variable variable, const FreestreamSettings& stream) {
+  const Real a = stream.alpha * radians_per_degree, b = stream.beta * radians_per_degree;
+  const Real speed = stream.mach;
+  switch (variable) {
+    case Variable::alpha:
+      return {{}, -speed * std::cos(b) * Vec3{-std::sin(a), 0, std::cos(a)}, {}};
+    case Variable::beta:
+      return {{}, speed * Vec3{std::cos(a) * std::sin(b), std::cos(b), std::sin(a) * std::sin(b)}, {}};
+    case Variable::p:
+      return {{}, {}, {-1, 0, 0}};
+    case Variable::q:
+      return {{}, {}, {0, 1, 0}};
+    case Variable::r:
+      return {{}, {}, {0, 0, -1}};
+    default:
+      return {};
+  }
+}
+
+bool is_rate(Variable variable) {
+  return variable != Variable::alpha && variable != Variable::beta;
+}
+
+/// Solves for some variables; `rates_of` holds the solutions whose rates these are, or is empty.
+std::vector<Sensitivity> solve(FlowCase& flow, const std::vector<Variable>& variables,
+                               const std::vector<Sensitivity>& rates_of) {
+  std::vector<SensitivityProblem> problems;
+  for (std::size_t i = 0; i < variables.size(); ++i)
+    problems.push_back({std::string(name(variables[i])), change_of(variables[i], flow.settings().freestream),
+                        rates_of.empty() ? std::span<const Primitive<Real>>{} : rates_of[i].field});
+  return solve_sensitivities(flow.iteration(), flow.conditions(), problems, SensitivityOptions{});
+}
+
+void add_column(DerivativeSet& derivatives, Variable variable, const Sensitivity& solution,
+                const Case& settings) {
+  const Real rate_scale =
+      is_rate(variable) ? 2 * settings.freestream.mach / settings.reference.length : Real{1};
+  const auto values = coefficients(rate_scale * solution.total, settings);
+  const auto errors = coefficients(rate_scale * solution.total_error, settings);
+  CoefficientsOf<Estimate> column;
+  for (int i = 0; i < Coefficients::size(); ++i) column[i] = {values[i], std::abs(errors[i])};
+  derivatives[variable] = column;
+  spdlog::info("{:9} {:3} iterations, linear residual {:.1e}", name(variable), solution.iterations,
+               solution.relative_residual);
+}
+
+/// Angles and rotations first, then the rates of the angles, whose right-hand sides are those solutions.
+DerivativeSet solve_all(FlowCase& flow) {
+  const Case& settings = flow.settings();
+  std::vector<Variable> angles{Variable::alpha}, rotations{Variable::q}, angle_rates{Variable::alphadot};
+  if (!settings.reference.half_model) {
+    angles.push_back(Variable::beta);
+    rotations.insert(rotations.end(), {Variable::p, Variable::r});
+    angle_rates.push_back(Variable::betadot);
+  }
+  DerivativeSet out;
+  const auto add_all = [&](const std::vector<Variable>& variables,
+                           const std::vector<Sensitivity>& solutions) {
+    for (std::size_t i = 0; i < variables.size(); ++i) add_column(out, variables[i], solutions[i], settings);
+  };
+  std::vector<Variable> direct = angles;
+  direct.insert(direct.end(), rotations.begin(), rotations.end());
+  const auto solutions = solve(flow, direct, {});
+  add_all(direct, solutions);
+  add_all(angle_rates, solve(flow, angle_rates, solutions));
+  return out;
+}
+
+}  // namespace
+
+RunStatus derivatives_verb(const CaseArguments& arguments, const Communicator& comm) {
+  FlowCase flow(arguments, comm);
+  DerivativeSet derivatives;
+  RunStatus status = RunStatus::error;
+  try {
+    const Timer steady_time;
+    status = flow.march();
+    const Real steady_cpu = comm.sum(steady_time.cpu());
+    const Timer linear_time;
+    derivatives = solve_all(flow);
+    spdlog::info("steady state {:.1f} s of processor, linear solves {:.1f} s", steady_cpu,
+                 comm.sum(linear_time.cpu()));
+  } catch (const DivergedError& error) {
+    status = RunStatus::diverged;
+    flow.set_message(error.what());
+    spdlog::error("diverged: {}", error.what());
+  }
+
+  const auto rows = rows_of(derivatives, "linear solve, k -> 0");
+  Result result = flow.result(status);
+  for (const auto& row : rows)
+    result.derivatives[row.name] = {row.value.value, row.value.uncertainty, row.method};
+  flow.write(result);
+  if (!rows.empty()) {
+    comm.on_root([&] {
+      replace_file_with(flow.folder() + "/derivatives.csv", derivative_csv(rows, flow.settings().reference));
+    });
+    spdlog::info("\n{}", derivative_table(rows, flow.settings().reference));
+    const auto margin = static_margin(derivatives[Variable::alpha].CN, derivatives[Variable::alpha].Cm);
+    spdlog::info("static margin {:.4f} lengths, neutral point x = {:.4f}", margin.value,
+                 flow.settings().reference.moment_center.x + margin.value * flow.settings().reference.length);
+  }
+  flow.print(result);
+  return status;
+}
+
+}  // namespace alphadot
