@@ -22,7 +22,7 @@ try:
     import matplotlib
     import numpy as np
 except ImportError as error:
-    sys.exit(f"table_one.py: {error}; install the Debian packages python3-h5py and python3-matplotlib and run with /usr/bin/python3")
+    sys.exit(f"table_one.py: {error}; run scripts/install.sh, and then this with /usr/bin/python3")
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 
@@ -111,26 +111,25 @@ def percent(value: float, of: float) -> str:
 
 
 def table(runs: list[Derivatives], paper: dict[float, Row], center: float, reference: dict) -> str:
-    """The comparison as text: `runs` about 5.5 d, then about the fitted centre beside the paper's values at the same Mach number."""
+    """The comparison as text: `runs` about 5.5 d, then about the fitted centre beside the paper's values."""
     width = max(len(run.method) for run in runs)
     head = f"  Mach  {'method':<{width}}"
     start = lambda run: f"  {run.mach:4.2f}  {run.method:<{width}}"
     lines = [
         "Basic Finner at alpha = 1.5 deg, beside Table I of the field-velocity paper (Euler, k = 0.01) and its tunnel experiment",
         "",
-        f"  Reference: length {reference['length']:g} d, area {reference['area']:.6f} d^2 (pi/4, of the whole model); x from the nose, in d.",
+        f"  Reference: length {reference['length']:g} d, area {reference['area']:.6f} d^2 (pi/4, whole model); x in d from the nose.",
         f"  Axes: {reference['axes']}.",
         f"  Per radian; rates times {reference['rate']}: Cm_alphadot = dCm / d(alphadot d / 2V).",
-        f"  Centre: the paper does not state its own. x_ref = {center:.3f} d is one least-squares fit, on relative misfit, to its five",
-        "  static values. Its acceleration and damping values are not in the fit: about x_ref ours are predictions of them.",
+        f"  Centre: the paper does not state its own. x_ref = {center:.3f} d is one least-squares fit, on relative misfit, to its",
+        "  five static values. Its acceleration and damping values are not in the fit: about x_ref ours are predictions of them.",
         "",
         f"About {FREE_FLIGHT_CENTER} d, the centre of the free-flight data",
         f"{head}  CN_alpha  Cm_alpha  CN_alphadot  Cm_alphadot     Cm_q",
     ]
     for run in (run.about(FREE_FLIGHT_CENTER) for run in runs):
-        lines.append(
-            f"{start(run)}  {run.CN_alpha:8.3f}  {run.Cm_alpha:8.3f}  {run.CN_alphadot:11.2f}  {run.Cm_alphadot:11.2f}  {number(run.Cm_q)}"
-        )
+        acceleration = f"{run.CN_alphadot:11.2f}  {run.Cm_alphadot:11.2f}"
+        lines.append(f"{start(run)}  {run.CN_alpha:8.3f}  {run.Cm_alpha:8.3f}  {acceleration}  {number(run.Cm_q)}")
     beside = [(run.about(center), {name: float(value) for name, value in paper[run.mach].items()}) for run in runs]
     columns = f"{head}      here  paper: field      grid"
     values = lambda run, name, row, key: (
@@ -178,7 +177,7 @@ def draw_loop(folder: Path, result: dict, center: float, picture: Path) -> None:
         (left, cm, static(swept), static(swept) + ellipse),
         (right, 1e3 * rest, 0.0 * swept, 1e3 * ellipse),
     ):
-        axes.plot(swept, line, color=MEASURED, lw=1.0, ls="--", label=f"static line, {CM_ALPHA} = {run.Cm_alpha:.2f}")
+        axes.plot(swept[90:271], line[90:271], color=MEASURED, lw=1.0, ls="--", label=f"static line, {CM_ALPHA} = {run.Cm_alpha:.2f}")
         axes.plot(swept, loop, color=PAPER, lw=1.6, label=f"ellipse, {CM_ALPHADOT} = {run.Cm_alphadot:.2f}")
         axes.plot(alpha[~fitted], points[~fitted], "o", ms=4, mfc="none", color=HERE, label="computed, first half cycle")
         axes.plot(alpha[fitted], points[fitted], "o", ms=4, color=HERE, label="computed, the cycle that is fitted")
@@ -187,7 +186,7 @@ def draw_loop(folder: Path, result: dict, center: float, picture: Path) -> None:
     for at in (0, 180):
         ends = [(swept[i], 1e3 * ellipse[i]) for i in (at + 12, at)]
         right.annotate("", *ends, arrowprops={"arrowstyle": "-|>", "color": PAPER, "mutation_scale": 18})
-    left.set_ylabel(f"pitching moment Cm about x = {center:.3f} d, nose up +")
+    left.set_ylabel(f"Cm about x = {center:.3f} d from the nose, nose up +")
     left.set_title("The loop (the paper's Fig. 4)", fontsize=11)
     left.legend(fontsize=9)
     right.set_ylabel("10³ × (Cm − static line)")
@@ -207,8 +206,8 @@ def draw_mach(sweep: list[Derivatives], paper: list[Row], center: float, picture
     rans = read_table("finner_rans_ARL_TR_6725.csv", lambda row: in_range(row) and row["method"] == "planar_pitching")
     sznajder = read_table("finner_sznajder2025.csv", lambda row: in_range(row) and row["quantity"] == "Cm_alphadot")
 
-    def ours(axes: plt.Axes, names: tuple[str, ...]) -> None:
-        for x, style in ((center, "o-"), (FREE_FLIGHT_CENTER, "o--"), (SZNAJDER_CENTER, "o:")):
+    def ours(axes: plt.Axes, names: tuple[str, ...], *also_about: float) -> None:
+        for x, style in zip((center, FREE_FLIGHT_CENTER, *also_about), ("o-", "o--", "o:")):
             values = [sum(getattr(run.about(x), name) for name in names) for run in sweep]
             label = f"alphadot, about {x:.2f} d" + (" (fitted)" if x == center else "")
             axes.plot([run.mach for run in sweep], values, style, color=HERE, lw=1.6, ms=4, label=label)
@@ -224,7 +223,7 @@ def draw_mach(sweep: list[Derivatives], paper: list[Row], center: float, picture
     published(static, flight, "Mach", ("Cma",), "x", OTHER, f"free flight, DREV, {FREE_FLIGHT_CENTER} d")
     static.set_title(f"Static: {CM_ALPHA}", fontsize=11)
 
-    ours(acceleration, ("Cm_alphadot",))
+    ours(acceleration, ("Cm_alphadot",), SZNAJDER_CENTER)
     published(acceleration, paper, "mach", ("acceleration_field",), "s", PAPER, "paper, field velocity")
     published(acceleration, sznajder, "Mach", ("value",), "d", OTHER, f"RANS, Sznajder (read ±8), {SZNAJDER_CENTER} d")
     acceleration.axhline(0.0, color=MEASURED, lw=0.6)
@@ -255,7 +254,8 @@ def main() -> None:
     parser.add_argument("folder", type=Path, help="folder of scripts/demo.sh, with the runs plunge and mach_*")
     folder = parser.parse_args().folder
     plunge = read_result(folder / "plunge")
-    sweep = sorted((derivatives_of(read_result(path.parent)) for path in folder.glob("mach_*/result.json")), key=lambda run: run.mach)
+    sweep = [derivatives_of(read_result(path.parent)) for path in folder.glob("mach_*/result.json")]
+    sweep.sort(key=lambda run: run.mach)
     rows = read_table("paper_table1.csv")
     paper = {float(row["mach"]): row for row in rows}
     if [run.mach for run in sweep] != list(paper):

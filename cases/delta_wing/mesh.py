@@ -1,8 +1,8 @@
 #!/usr/bin/python3
 """Mesh of a thin delta wing with sharp leading edges and a blunt base, in a conical supersonic far field.
 
-Lengths are in root chords; x aft from the apex, y starboard, z up. The wing is a flat pyramid: its section across the stream is a
-rhombus that grows in proportion to x. gmsh meshes the quarter y, z >= 0; the half and full models are its exact mirror images.
+Lengths are in root chords; x aft from the apex, y starboard, z up. The wing is a flat pyramid: its section across the stream is
+a rhombus that grows in proportion to x. gmsh meshes the quarter y, z >= 0; the half and full models are its exact mirror images.
 """
 
 from __future__ import annotations
@@ -10,7 +10,6 @@ from __future__ import annotations
 import argparse
 import math
 import sys
-from collections.abc import Callable
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
@@ -51,7 +50,7 @@ def build_quarter() -> None:
     occ.synchronize()
 
 
-def size_field(h: float) -> Callable[[int, int, float, float, float], float]:
+def size_field(h: float) -> meshing.SizeField:
     """The cell size wanted at a point, in root chords; proportional to h and to the distance from the apex."""
     last = math.tan(math.radians(LAST_ANGLE))
 
@@ -78,7 +77,7 @@ def build(h: float, arguments: argparse.Namespace) -> tuple[meshing.TetMesh, lis
     """The mesh, and lines that compare its patches with the exact wing."""
     gmsh.model.add("quarter")
     build_quarter()
-    quarter = sector.mesh_sector(size_field(h), patch_name, {"symmetry_y": 1, "symmetry_z": 2})
+    quarter = sector.mesh_quarter(size_field(h), patch_name)
     mesh, symmetry = sector.unfolded(quarter, arguments.model)
     share = sector.MODELS[arguments.model]
     side = 0.5 * math.hypot(SPAN, HEIGHT, SPAN * HEIGHT)  # of the triangle with its corners at the apex, a tip and the ridge

@@ -6,6 +6,7 @@ Lengths are in chords; x aft from the leading edge, y along the span, z up.
 
 from __future__ import annotations
 
+import argparse
 import math
 import sys
 from pathlib import Path
@@ -22,14 +23,17 @@ except ImportError as error:
 LEVELS = {"tiny": 1 / 20, "small": 1 / 40, "coarse": 1 / 80, "medium": 1 / 160}  # cell size over the section, in chords
 
 
+def build(h: float, arguments: argparse.Namespace) -> tuple[meshing.TetMesh, list[str]]:
+    """The mesh and the lines of its report."""
+    if not 0.1 <= arguments.half_angle <= 5.0:
+        raise meshing.MeshError(f"--half-angle {arguments.half_angle} is outside 0.1 to 5")
+    height = 0.5 * math.tan(math.radians(arguments.half_angle))
+    return slab.mesh_slab([(0.0, 0.0), (0.5, height), (1.0, 0.0)], h)
+
+
 def main() -> None:
     parser = meshing.command_line(__doc__, LEVELS, "chord")
     parser.add_argument("--half-angle", type=float, default=5.0, metavar="DEG", help="at both ends, 0.1 to 5 (default)")
-
-    def build(h, arguments):
-        if not 0.1 <= arguments.half_angle <= 5.0:
-            raise meshing.MeshError(f"--half-angle {arguments.half_angle} is outside 0.1 to 5")
-        return slab.mesh_slab(slab.Section([(0.0, 0.0), (0.5, 0.5 * math.tan(math.radians(arguments.half_angle))), (1.0, 0.0)]), h)
 
     meshing.run(parser, LEVELS, build)
 

@@ -1,8 +1,8 @@
 #!/usr/bin/python3
 """Mesh of a sharp circular cone of 10 degrees half-angle with a blunt base, in a conical supersonic far field.
 
-Lengths are in cone lengths; x aft from the apex, y starboard, z up. gmsh meshes the quarter y, z >= 0; the half and full models are
-its exact mirror images. The flow is conical, and so is the mesh: cells grow in proportion to the distance from the apex.
+Lengths are in cone lengths; x aft from the apex, y starboard, z up. gmsh meshes the quarter y, z >= 0; the half and full models
+are its exact mirror images. The flow is conical, and so is the mesh: cells grow in proportion to the distance from the apex.
 """
 
 from __future__ import annotations
@@ -11,7 +11,6 @@ import argparse
 import csv
 import math
 import sys
-from collections.abc import Callable
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
@@ -27,7 +26,8 @@ except ImportError as error:
     sys.exit(f"mesh.py: {error}; install the Debian packages python3-gmsh and python3-numpy and run with /usr/bin/python3")
 
 SLOPE = math.tan(math.radians(10.0))  # also the radius of the base
-# Cell size h on the surface just ahead of the base region, and relative to the distance from the apex elsewhere.
+# Cell size h on the surface, relative to the distance from the apex. The half model has about 10, 35, 100, 240 and 660 thousand
+# tetrahedra.
 LEVELS = {"tiny": 0.09, "small": 0.055, "coarse": 0.038, "medium": 0.0275, "fine": 0.0195}
 FLOOR = 0.06  # nearer to the apex than this, cells do not become smaller
 
@@ -59,7 +59,7 @@ def build_quarter(far_angle: float) -> None:
     occ.synchronize()
 
 
-def size_field(h: float, shock: float) -> Callable[[int, int, float, float, float], float]:
+def size_field(h: float, shock: float) -> meshing.SizeField:
     """The cell size wanted at a point, in cone lengths; proportional to h. `shock`: its angle in degrees."""
     last = math.tan(math.radians(shock))
 
@@ -85,13 +85,15 @@ def patch_name(points: np.ndarray) -> str:
 def compensate_chords(mesh: meshing.TetMesh) -> None:
     """Move the points of the body outward until its flat triangles enclose, to leading order, the volume of the true cone.
 
-    Over a triangle whose corners are u apart along the circumference, the chords run sum(u^2) / (24 r) inside the circle of radius
-    r in the mean. Left alone, the triangles make a slimmer cone, and a steeper one wherever they become smaller.
+    Over a triangle whose corners are u apart along the circumference, the chords run sum(u^2) / (24 r) inside the circle of
+    radius r in the mean. Left alone, the triangles make a slimmer cone, and a steeper one wherever they become smaller.
     """
     radius = np.hypot(mesh.points[:, 1], mesh.points[:, 2])
     circle = mesh.points[:, 1:] / np.where(radius > 0.0, radius, 1.0)[:, None]
     body = mesh.patches["body"]
     edges = circle[body] - circle[np.roll(body, 1, axis=1)]
+    at_apex = radius[body] == 0.0
+    edges[at_apex | np.roll(at_apex, 1, axis=1)] = 0.0  # along a generator
     area = np.linalg.norm(meshing.area_vectors(mesh.points, body), axis=1)
     inside = area * (edges**2).sum(axis=(1, 2)) / 24.0
     gather = lambda values: np.bincount(body.ravel(), np.repeat(values, 3), len(radius))
@@ -103,7 +105,7 @@ def build(h: float, arguments: argparse.Namespace) -> tuple[meshing.TetMesh, lis
     shock = shock_angle(arguments.mach)
     gmsh.model.add("quarter")
     build_quarter(shock + MARGIN)
-    quarter = sector.mesh_sector(size_field(h, shock), patch_name, {"symmetry_y": 1, "symmetry_z": 2})
+    quarter = sector.mesh_quarter(size_field(h, shock), patch_name)
     compensate_chords(quarter)
     mesh, symmetry = sector.unfolded(quarter, arguments.model)
     share = sector.MODELS[arguments.model]

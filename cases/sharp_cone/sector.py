@@ -9,23 +9,18 @@ import numpy as np
 
 import meshing
 
-MODELS = {"quarter": 0.25, "half": 0.5, "full": 1.0}  # shares of the whole
+MODELS = {"quarter": 0.25, "half": 0.5, "full": 1.0}  # shares of the whole; half is y >= 0
 
 
-def mesh_sector(
-    size: Callable[[int, int, float, float, float], float], patch_name: Callable[[np.ndarray], str], planes: dict[str, int]
-) -> meshing.TetMesh:
-    """Mesh the current gmsh model, one volume, and remove it.
+def mesh_quarter(size: meshing.SizeField, patch_name: Callable[[np.ndarray], str]) -> meshing.TetMesh:
+    """Mesh the current gmsh model, which must be one volume, and remove it.
 
-    `patch_name` tells the patch of a CAD face from all its mesh points (n, 3). `planes`: name -> axis of the patches that are
-    symmetry planes; their points are moved exactly onto axis = 0. No cell has two boundary faces.
+    `patch_name` tells the patch of a CAD face from all its mesh points (n, 3). Among the patches are `symmetry_y` and
+    `symmetry_z`, whose points are moved exactly onto y = 0 and z = 0.
     """
     if len(gmsh.model.getEntities(3)) != 1:
         raise meshing.MeshError("the fluid is not one volume")
-    meshing.prepare_gmsh(size)
-    gmsh.model.mesh.generate(3)
-    gmsh.model.mesh.removeSizeCallback()
-    points, row = meshing.gmsh_points()
+    points, row = meshing.generate(size, 3)
     parts: dict[str, list[np.ndarray]] = {}
     for _, face in gmsh.model.getEntities(2):
         triangles = row[gmsh.model.mesh.getElementsByType(2, face)[1].astype(np.int64)].reshape(-1, 3)
@@ -33,16 +28,13 @@ def mesh_sector(
     tets = row[gmsh.model.mesh.getElementsByType(4)[1].astype(np.int64)].reshape(-1, 4)
     gmsh.model.remove()
     mesh = meshing.TetMesh(points, tets, {name: np.concatenate(patch) for name, patch in parts.items()})
-    for name, axis in planes.items():
+    for name, axis in (("symmetry_y", 1), ("symmetry_z", 2)):
         points[mesh.patches[name], axis] = 0.0
     return meshing.relaxed(meshing.split_corners(meshing.oriented(mesh)))
 
 
 def unfolded(quarter: meshing.TetMesh, model: str) -> tuple[meshing.TetMesh, list[str]]:
-    """A model of `MODELS` from the quarter y, z >= 0, with its symmetry planes in the last but one patch `symmetry`, and a report.
-
-    The quarter's planes are the patches `symmetry_y` and `symmetry_z`; the half model is y >= 0.
-    """
+    """One of `MODELS` from the quarter, with what symmetry planes are left in the one patch `symmetry`, and a report on it."""
     axes = {"quarter": {}, "half": {"z": 2}, "full": {"z": 2, "y": 1}}[model]
     mesh = quarter
     for name, axis in axes.items():

@@ -24,7 +24,7 @@ LEVELS = {"tiny": 1 / 20, "small": 1 / 40, "coarse": 1 / 80, "medium": 1 / 160} 
 
 
 def main() -> None:
-    section = slab.Section([(0.0, 0.0), (1.0, math.tan(math.radians(HALF_ANGLE)))])
+    section = [(0.0, 0.0), (1.0, math.tan(math.radians(HALF_ANGLE)))]
     meshing.run(meshing.command_line(__doc__, LEVELS, "chord"), LEVELS, lambda h, _arguments: slab.mesh_slab(section, h))
 
 

@@ -1,80 +1,67 @@
 """Two-dimensional sections as thin slabs of tetrahedra between two symmetry planes.
 
-The fluid above a symmetric section is triangulated by gmsh in the plane (x, z), extruded along y into prisms, each of which is cut
-into three tetrahedra, and mirrored about z = 0 and about the middle of the slab.
+The fluid above a symmetric section is triangulated by gmsh in the plane (x, z), extruded along y into prisms that are cut into
+three tetrahedra each, and mirrored about z = 0 and about the middle of the slab. A section is the corners (x, z) of its upper
+half, from the leading edge at the origin to x = 1; it has a blunt base when the last corner is above z = 0.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
-from dataclasses import dataclass
 
 import gmsh
 import numpy as np
 
 import meshing
 
-LAYERS = 2  # of prisms across the slab; even, and the fewest that leave every cell with at most one face on a wall or plane
+Section = list[tuple[float, float]]
+
+LAYERS = 2  # of prisms across the slab; even
 LAYER_HEIGHT = 0.9  # in h; gives the best tetrahedra from prisms over triangles of side h
 
 # Far field: the wedge z <= FAR_HEIGHT + tan(FAR_ANGLE) (x - FAR_START), outside the shocks of a 5-degree section for M >= 2 and
 # |alpha| <= 3 deg, whose waves therefore never come back; the cells are fine up to BOW_ANGLE, which is outside them too.
 FAR_START, FAR_HEIGHT, FAR_ANGLE, FAR_END = -0.1, 0.06, 42.0, 1.25
 BOW_ANGLE = 37.5
-# Nothing beyond the last wave that still reaches the trailing edge matters there; those waves come in less steep than this.
+# Nothing beyond the last wave that still reaches the trailing edge matters to the forces, and cells grow there; those waves come
+# in less steep than this.
 LAST_ANGLE = 34.0
 
 
-@dataclass(frozen=True)
-class Section:
-    """The upper half of a section of chord 1: corners (x, z) from the leading edge to the end, and the height of a blunt base."""
-
-    corners: list[tuple[float, float]]
-
-    @property
-    def base(self) -> float:
-        return self.corners[-1][1]
-
-    def outline(self) -> list[tuple[float, float, str]]:
-        """The boundary of the fluid above the section, clockwise: x, z and the patch of the side that starts there."""
-        top = FAR_HEIGHT + (FAR_END - FAR_START) * math.tan(math.radians(FAR_ANGLE))
-        end = self.corners[-1]
-        aft = [(*end, "base"), (end[0], 0.0, "plane")] if self.base > 0.0 else [(*end, "plane")]
-        return [(FAR_START, 0.0, "plane"), *((x, z, "body") for x, z in self.corners[:-1]), *aft, (FAR_END, 0.0, "farfield"),
-                (FAR_END, top, "farfield"), (FAR_START, FAR_HEIGHT, "farfield")]  # fmt: skip
+def outline(section: Section) -> list[tuple[float, float, str]]:
+    """The boundary of the fluid above the section, counter-clockwise: x, z and the patch of the side that starts there."""
+    top = FAR_HEIGHT + (FAR_END - FAR_START) * math.tan(math.radians(FAR_ANGLE))
+    end = section[-1]
+    aft = [(*end, "base"), (end[0], 0.0, "plane")] if end[1] > 0.0 else [(*end, "plane")]
+    return [(FAR_START, 0.0, "plane"), *((x, z, "body") for x, z in section[:-1]), *aft, (FAR_END, 0.0, "farfield"),
+            (FAR_END, top, "farfield"), (FAR_START, FAR_HEIGHT, "farfield")]  # fmt: skip
 
 
-def size_field(section: Section, h: float) -> Callable[[int, int, float, float, float], float]:
+def size_field(section: Section, h: float) -> meshing.SizeField:
     """The cell size wanted at a point of gmsh's plane (x, z), in chords: h over the section, proportional to h everywhere."""
     bow, last = math.tan(math.radians(BOW_ANGLE)), math.tan(math.radians(LAST_ANGLE))
 
     def size(_dimension: int, _tag: int, x: float, z: float, _y: float) -> float:
         # Half of h at the corners, where shocks and fans begin inside the first cells.
-        corner = min(math.hypot(x - cx, z - cz) for cx, cz in section.corners)
+        corner = min(math.hypot(x - cx, z - cz) for cx, cz in section)
         early = max(z - bow * max(x + 0.02, 0.0), -x - 0.02, 0.0)
-        late = max(x - 1.02 + max(z - section.base, 0.0) / last, 0.0)
+        late = max(x - 1.02 + max(z - section[-1][1], 0.0) / last, 0.0)
         return h * min(0.5 + 4.0 * corner, 1.0 + 8.0 * early + 4.0 * late, 4.0)
 
     return size
 
 
-def triangulate(
-    section: Section, h: float
-) -> tuple[np.ndarray, np.ndarray, dict[str, np.ndarray]]:
-    """Points (n, 2), triangles (m, 3), and edges (k, 2) of each patch."""
+def triangulate(section: Section, h: float) -> tuple[np.ndarray, np.ndarray, dict[str, np.ndarray]]:
+    """Points (n, 2), triangles (m, 3), and edges (k, 2) of each patch; `plane` is the boundary on z = 0."""
     gmsh.model.add("section")
-    outline = section.outline()
-    corners = [gmsh.model.geo.addPoint(x, z, 0.0) for x, z, _ in outline]
+    around = outline(section)
+    corners = [gmsh.model.geo.addPoint(x, z, 0.0) for x, z, _ in around]
     sides = [gmsh.model.geo.addLine(a, b) for a, b in zip(corners, corners[1:] + corners[:1])]
     face = gmsh.model.geo.addPlaneSurface([gmsh.model.geo.addCurveLoop(sides)])
     gmsh.model.geo.synchronize()
-    meshing.prepare_gmsh(size_field(section, h))
-    gmsh.model.mesh.generate(2)
-    gmsh.model.mesh.removeSizeCallback()
-    points, row = meshing.gmsh_points()
+    points, row = meshing.generate(size_field(section, h), 2)
     parts: dict[str, list[np.ndarray]] = {}
-    for side, (_, _, name) in zip(sides, outline):
+    for side, (_, _, name) in zip(sides, around):
         parts.setdefault(name, []).append(row[gmsh.model.mesh.getElementsByType(1, side)[1].astype(np.int64)].reshape(-1, 2))
     triangles = row[gmsh.model.mesh.getElementsByType(2, face)[1].astype(np.int64)].reshape(-1, 3)
     gmsh.model.remove()
@@ -83,9 +70,7 @@ def triangulate(
     return points[:, :2], triangles, edges
 
 
-def extrude(
-    section: np.ndarray, triangles: np.ndarray, edges: dict[str, np.ndarray], heights: np.ndarray
-) -> meshing.TetMesh:
+def extrude(flat: np.ndarray, triangles: np.ndarray, edges: dict[str, np.ndarray], heights: np.ndarray) -> meshing.TetMesh:
     """Prisms over a triangulation of the plane (x, z), between the given heights y, cut into tetrahedra.
 
     The patches of the edges keep their names; `symmetry` is at the first height and `middle` at the last. In a prism with lower
@@ -93,13 +78,13 @@ def extrude(
     smaller to the upper larger number, whichever side one looks from. Points on walls have the smallest numbers, so that a wall
     stands on ab and the tetrahedron on the symmetry plane, abcC, has no face on it.
     """
-    n = len(section)
-    on_wall = np.ones(n, dtype=bool)
-    on_wall[np.unique(np.concatenate([edges[name] for name in edges if name in ("body", "base")]))] = False
-    number = np.empty(n, dtype=np.int64)
-    number[np.argsort(on_wall, kind="stable")] = np.arange(n)
-    ordered = np.empty_like(section)
-    ordered[number] = section
+    n = len(flat)
+    free = np.ones(n, dtype=bool)
+    for name in edges.keys() & {"body", "base"}:
+        free[edges[name]] = False
+    order = np.argsort(free, kind="stable")
+    number = np.argsort(order)
+    ordered = flat[order]
     points = np.concatenate([np.column_stack([ordered[:, 0], np.full(n, y), ordered[:, 1]]) for y in heights])
 
     lower = n * np.arange(len(heights) - 1)[:, None, None]
@@ -124,7 +109,7 @@ def mesh_slab(section: Section, h: float) -> tuple[meshing.TetMesh, list[str]]:
     order = ["body", "base", "symmetry", "farfield"]
     mesh = meshing.TetMesh(mesh.points, mesh.tets, {name: mesh.patches[name] for name in order if name in mesh.patches})
 
-    length = sum(math.dist(p, q) for p, q in zip(section.corners, section.corners[1:]))
-    exact = {"body": 2.0 * length * width, "base": 2.0 * section.base * width}
-    lines = [f"slab from y = 0 to {width:.6g} c, {LAYERS} layers: reference area (chord x width) {width:.6g} c^2"]
-    return mesh, lines + meshing.patch_report(mesh, exact) + ["mirror image about z = 0 and about the middle: identical bit for bit"]
+    length = sum(math.dist(p, q) for p, q in zip(section, section[1:]))
+    lines = [f"slab from y = 0 to {width:.6g} c: reference area (chord x width) {width:.6g} c^2"]
+    lines += meshing.patch_report(mesh, {"body": 2.0 * length * width, "base": 2.0 * section[-1][1] * width})
+    return mesh, lines + ["mirror image about z = 0 and about the middle: identical bit for bit"]

@@ -50,10 +50,11 @@ void DualTime::add_time_derivative() {
 
 Real DualTime::moment_scale(const StepReport& step, Real amplitude) {
   const int axis = motion_.moment_axis();
-  largest_angle_ = std::max(largest_angle_, std::abs(motion_.driven_angle(step.attitude)));
-  largest_moment_ =
-      std::max(largest_moment_, std::abs(step.report.total.moment[axis] - initial_.moment[axis]));
-  return largest_angle_ > 0 ? largest_moment_ * amplitude / largest_angle_ : largest_moment_;
+  state_.largest_angle = std::max(state_.largest_angle, std::abs(motion_.driven_angle(step.attitude)));
+  state_.largest_moment =
+      std::max(state_.largest_moment, std::abs(step.report.total.moment[axis] - initial_.moment[axis]));
+  return state_.largest_angle > 0 ? state_.largest_moment * amplitude / state_.largest_angle
+                                  : state_.largest_moment;
 }
 
 void DualTime::keep_levels() {
@@ -65,7 +66,7 @@ void DualTime::keep_levels() {
 
 StepReport DualTime::advance(const InnerTolerance& tolerance) {
   StepReport out;
-  out.step = ++step_;
+  out.step = ++state_.step;
   out.time = time();
   out.attitude = motion_.at(out.time);
   const auto conditions = field_velocity_conditions(out.attitude, motion_.wind(), axis_point_,
@@ -80,7 +81,7 @@ StepReport DualTime::advance(const InnerTolerance& tolerance) {
     add_time_derivative();
     out.report = iteration_.report();
     if (!out.report.physical)
-      throw DivergedError("the flow became unphysical in time step " + std::to_string(step_));
+      throw DivergedError("the flow became unphysical in time step " + std::to_string(state_.step));
     if (inner == 0) first = std::max(out.report.density_residual, 1e-300);
     out.inner_iterations = inner;
     out.inner_orders = std::log10(first / std::max(out.report.density_residual, 1e-300));

@@ -31,6 +31,12 @@ struct InnerTolerance {
   int max_iterations;
 };
 
+/// What a march needs, besides the flow and its two old levels, to go on exactly as if it had not stopped.
+struct DualTimeState {
+  int step = 0;
+  Real largest_angle = 0, largest_moment = 0;
+};
+
 /// Time-accurate march along a motion, by field velocity on a still mesh.
 class DualTime {
  public:
@@ -43,8 +49,17 @@ class DualTime {
   /// unphysical.
   StepReport advance(const InnerTolerance& tolerance);
 
-  int step() const { return step_; }
-  Real time() const { return step_ * time_step_; }
+  int step() const { return state_.step; }
+  Real time() const { return state_.step * time_step_; }
+
+  /// For checkpoints: [owned_cells] conserved states of the latest step and the one before; the flow itself
+  /// is primitive.
+  std::span<Conserved<Real>> latest_level() { return old_; }
+  std::span<Conserved<Real>> level_before() { return older_; }
+  const DualTimeState& state() const { return state_; }
+  /// Goes on from a state whose levels and flow have been put in place.
+  void restore(const DualTimeState& state) { state_ = state; }
+
   std::size_t bytes() const { return 2 * old_.size() * sizeof(old_[0]); }
 
  private:
@@ -59,8 +74,7 @@ class DualTime {
   Vec3 axis_point_;
   Real time_step_;
   Load initial_;
-  Real largest_angle_ = 0, largest_moment_ = 0;  // deviations from the start
-  int step_ = 0;
+  DualTimeState state_;
   std::vector<Conserved<Real>> old_, older_;  // [owned_cells] U^n, U^(n-1)
 };
 

@@ -49,7 +49,7 @@ Cells = list[tuple[int, ...]]
 
 
 def box(n: int) -> tuple[Points, Cells, dict[str, Cells]]:
-    """The unit cube in 6 n^3 tetrahedra (Kuhn): points, cells, and the patches "wall" (z = 0) and "farfield"."""
+    """The unit cube in 6 n^3 tetrahedra (Kuhn): points, cells, and the patches "wall" (z = 0), "sides" (y = 0, 1), "farfield"."""
     points = [(i / n, j / n, k / n) for i, j, k in product(range(n + 1), repeat=3)]
     number = {point: index for index, point in enumerate(points)}
     cells: Cells = []
@@ -62,12 +62,12 @@ def box(n: int) -> tuple[Points, Cells, dict[str, Cells]]:
             a, b, c, d = (number[tuple(x / n for x in vertex)] for vertex in path)
             even = axes in ((0, 1, 2), (1, 2, 0), (2, 0, 1))
             cells.append((a, b, c, d) if even else (a, c, b, d))
-    patches: dict[str, Cells] = {"wall": [], "farfield": []}
+    patches: dict[str, Cells] = {"wall": [], "sides": [], "farfield": []}
     for cell in cells:
         for face in (cell[:i] + cell[i + 1 :] for i in range(4)):
             for axis, side in product(range(3), (0.0, 1.0)):
                 if all(points[p][axis] == side for p in face):
-                    patches["wall" if (axis, side) == (2, 0.0) else "farfield"].append(face)
+                    patches["sides" if axis == 1 else "wall" if (axis, side) == (2, 0.0) else "farfield"].append(face)
     return points, cells, patches
 
 
@@ -94,6 +94,7 @@ alpha = 1.0
 
 [boundary]
 wall = "wall"
+sides = "symmetry"
 farfield = "farfield"
 """
 

@@ -96,7 +96,7 @@ class Faults(unittest.TestCase):
     def test_more_ranks_than_cells(self) -> None:
         points = [(0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)]
         cells = [(0, 1, 2, 3)] if RANKS > 1 else []
-        patches = {"wall": [(0, 1, 2)], "farfield": [(0, 1, 3), (0, 2, 3), (1, 2, 3)]}
+        patches = {"wall": [(0, 1, 2)], "sides": [(0, 1, 3)], "farfield": [(0, 2, 3), (1, 2, 3)]}
         self.refused("box.msh", mesh=gmsh_text(points, cells, patches))
 
     def test_folder_below_a_file(self) -> None:
@@ -120,7 +120,7 @@ class Faults(unittest.TestCase):
         self.assertEqual(outcome.codes, [1] * RANKS)
         self.assertEqual(len(outcome.errors), 2, outcome.err)
         self.assertIn("case.toml:5", outcome.errors[0])
-        self.assertIn("case.toml:10", outcome.errors[1])
+        self.assertIn("case.toml:11", outcome.errors[1])
 
     def test_wrong_command_line(self) -> None:
         for arguments in ((), ("fly",), ("run",), ("run", "case.toml", "--fast")):

@@ -80,6 +80,14 @@ TEST_P(Steady, LeavesAUniformStreamAlone) {
     for (int i = 0; i < 5; ++i) EXPECT_NEAR(iteration.flow()[cell][i], conditions.free_stream[i], 1e-13);
 }
 
+// Nor is there anything to wait for: round-off does not fall by decades.
+TEST_P(Steady, IsFoundAtOnceWhereTheFlowIsSteadyAlready) {
+  const BoxCase box(small_box(), open_box(), space, comm);
+  const SteadyFlow steady(box, {free_stream(Vec3{1.5, 0.2, -0.1}, gamma_air), {}}, orders);
+  EXPECT_EQ(steady.result.status, RunStatus::converged);
+  EXPECT_LT(steady.result.iterations, 5);
+}
+
 TEST_P(Steady, TakesBackAStep) {
   const BoxCase box(mesh, ramp_sides(), space, comm);
   ImplicitIteration iteration(box.discretization, comm,
