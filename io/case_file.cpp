@@ -180,6 +180,12 @@ class CaseReader {
       complain_about({"motion.kind"}, motion + " needs a full model", "set reference.model = \"full\"");
     if (kind == MotionKind::table && c.motion.table_file.empty())
       complain_about({"motion.kind"}, motion + " needs motion.table_file");
+    if (kind != MotionKind::none && norm(c.motion.rotation) != 0)
+      complain_about({"motion.rotation"}, "a steady rotation excludes " + motion,
+                     "leave out either of them");
+    if (c.reference.half_model && (c.motion.rotation.x != 0 || c.motion.rotation.z != 0))
+      complain_about({"motion.rotation"}, "a half model can only rotate in pitch",
+                     "set reference.model = \"full\"");
     const bool has_duration = kind == MotionKind::step_alpha || kind == MotionKind::ramp_alpha ||
                               kind == MotionKind::step_q || kind == MotionKind::table;
     if (has_duration && c.unsteady.duration <= 0)

@@ -98,11 +98,14 @@ std::vector<CaseKey> make_keys() {
       .key("gradient", &SpaceSettings::gradient, WordValue{words_of<GradientKind>}, "gradient of a cell")
       .key("limiter", &SpaceSettings::limiter, WordValue{words_of<LimiterKind>}, "limiter of the gradient")
       .key("limiter_k", &SpaceSettings::limiter_k, positive, "Venkatakrishnan's K")
+      .key("freeze_orders", &SpaceSettings::freeze_orders, NumberValue{.from = 0, .to = 16},
+           "decades of residual after which the limiter is frozen; 0: never")
       .key("entropy_fix", &SpaceSettings::entropy_fix, NumberValue{.from = 0, .to = 1},
            "Harten's delta as a share of the spectral radius");
 
   Table(keys, "steady", &Case::steady)
       .key("scheme", &SteadySettings::scheme, WordValue{words_of<SchemeKind>}, "implicit scheme")
+      .key("sweeps", &SteadySettings::sweeps, count, "pairs of forward and backward passes of the block scheme")
       .key("cfl_start", &SteadySettings::cfl_start, positive, "first CFL number")
       .key("cfl_max", &SteadySettings::cfl_max, positive, "largest CFL number")
       .key("cfl_growth", &SteadySettings::cfl_growth, NumberValue{.from = 1, .to = 100},
@@ -121,7 +124,9 @@ std::vector<CaseKey> make_keys() {
       .key("axis_point", &MotionSettings::axis_point, VectorValue{}, "rotations are about this point")
       .default_is("reference.moment_center")
       .key("table_file", &MotionSettings::table_file, TextValue{.may_be_empty = true},
-           "for kind = \"table\", relative to the folder of the case file");
+           "for kind = \"table\", relative to the folder of the case file")
+      .key("rotation", &MotionSettings::rotation, VectorValue{},
+           "for kind = \"none\": steady rotation (p, q, r) * length / (2 V) at constant incidence");
 
   Table(keys, "unsteady", &Case::unsteady)
       .key("cycles", &UnsteadySettings::cycles, positive, "duration of a harmonic motion")
@@ -139,6 +144,22 @@ std::vector<CaseKey> make_keys() {
       .default_is("runs/<name of the case file>")
       .key("flow", &OutputSettings::flow, FlagValue{}, "write flow.vtkhdf")
       .key("surface", &OutputSettings::surface, FlagValue{}, "write surface.vtkhdf");
+
+  const auto none_or_more = IntegerValue{.from = 0};
+  const auto minutes = NumberValue{.from = 0};
+  Table(keys, "checkpoint", &Case::checkpoint)
+      .key("minutes", &CheckpointSettings::minutes, minutes, "wall time between checkpoints; 0: not by time")
+      .key("steps", &CheckpointSettings::steps, none_or_more,
+           "time steps between checkpoints; 0: not by steps")
+      .key("iterations", &CheckpointSettings::iterations, none_or_more,
+           "steady iterations between checkpoints; 0: not by iterations")
+      .key("keep", &CheckpointSettings::keep, count, "checkpoints that are kept, the newest")
+      .key("wall_limit_minutes", &CheckpointSettings::wall_limit_minutes, minutes,
+           "the run ends with a checkpoint before this wall time; 0: no limit")
+      .key("on_failure", &CheckpointSettings::on_failure, WordValue{words_of<FailureAction>},
+           "what a run does whose checkpoint cannot be written")
+      .key("watchdog_minutes", &CheckpointSettings::watchdog_minutes, minutes,
+           "a run without an iteration for so long is ended as hanging; 0: never");
   return keys;
 }
 

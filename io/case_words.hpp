@@ -50,6 +50,8 @@ inline constexpr Word<BoundaryKind> boundary[] = {{"wall", BoundaryKind::wall},
                                                   {"jet", BoundaryKind::jet},
                                                   {"symmetry", BoundaryKind::symmetry},
                                                   {"farfield", BoundaryKind::farfield}};
+inline constexpr Word<FailureAction> failure[] = {{"stop", FailureAction::stop},
+                                                  {"continue", FailureAction::go_on}};
 /// reference.model: is the mesh the half y >= 0?
 inline constexpr Word<bool> model[] = {{"full", false}, {"half", true}};
 }  // namespace words
@@ -66,6 +68,8 @@ template <>
 inline constexpr std::span<const Word<MotionKind>> words_of<MotionKind> = words::motion;
 template <>
 inline constexpr std::span<const Word<TreatmentKind>> words_of<TreatmentKind> = words::treatment;
+template <>
+inline constexpr std::span<const Word<FailureAction>> words_of<FailureAction> = words::failure;
 template <>
 inline constexpr std::span<const Word<BoundaryKind>> words_of<BoundaryKind> = words::boundary;
 

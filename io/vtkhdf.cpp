@@ -8,11 +8,10 @@
 #include "io/files.hpp"
 #include "io/hdf5.hpp"
 #include "io/stream_to_root.hpp"
+#include "io/vtkhdf_grid.hpp"
 
 namespace alphadot {
 namespace {
-
-constexpr std::uint8_t vtk_triangle = 5, vtk_tetra = 10;
 
 /// One rank's part of a grid of equal cells.
 struct GridPart {
@@ -31,10 +30,7 @@ class VtkHdfFile {
     comm_.on_root([&] {
       replacement_.emplace(path);
       file_.emplace(hdf5::File::create(replacement_->temporary()));
-      auto root = file_->create_group("VTKHDF");
-      root.set_attribute("Version", std::vector<std::int64_t>{1, 0});
-      root.set_attribute("Type", "UnstructuredGrid");
-      root.create_group("CellData");
+      create_vtk_group(*file_);
     });
   }
 
@@ -51,13 +47,7 @@ class VtkHdfFile {
     for (auto& corner : corners) corner += first_point;
     write_values<std::int64_t>("Connectivity", corners, 0);
     comm_.on_root([&] {
-      const auto root = file_->group("VTKHDF");
-      root.write("NumberOfPoints", std::vector<std::int64_t>{points});
-      root.write("NumberOfCells", std::vector<std::int64_t>{cells});
-      root.write("NumberOfConnectivityIds", std::vector<std::int64_t>{cells * part.corners_per_cell});
-      write_computed<std::int64_t>(root, "Offsets", cells + 1,
-                                   [&](GlobalIndex i) { return i * part.corners_per_cell; });
-      write_computed<std::uint8_t>(root, "Types", cells, [&](GlobalIndex) { return part.vtk_type; });
+      write_vtk_sizes(file_->group("VTKHDF"), points, cells, part.corners_per_cell, part.vtk_type);
     });
   }
 
@@ -106,19 +96,6 @@ class VtkHdfFile {
 
   void write_floats(const std::string& name, std::span<const Real> values, GlobalIndex columns) {
     write_values<float>(name, std::vector<float>(values.begin(), values.end()), columns);
-  }
-
-  /// A dataset of value(0) ... value(size - 1), made in pieces. Root only.
-  template <class T, class Value>
-  static void write_computed(const hdf5::Group& group, const std::string& name, GlobalIndex size,
-                             Value value) {
-    auto target = group.create_dataset<T>(name, size);
-    std::vector<T> piece;
-    for (GlobalIndex first = 0; first < size; first += piece_rows) {
-      piece.resize(static_cast<std::size_t>(std::min(piece_rows, size - first)));
-      for (std::size_t i = 0; i < piece.size(); ++i) piece[i] = value(first + static_cast<GlobalIndex>(i));
-      target.write(first, std::span<const T>(piece));
-    }
   }
 
   const Communicator& comm_;

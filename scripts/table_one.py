@@ -235,12 +235,12 @@ def draw_mach(sweep: list[Derivatives], paper: list[Row], center: float, picture
     published(damping, flight, "Mach", ("Cmq_plus_Cmad",), "x", OTHER, f"free flight, DREV, {FREE_FLIGHT_CENTER} d")
     damping.set_title(f"Pitch damping: {CM_Q} + {CM_ALPHADOT}", fontsize=11)
 
-    for axes in (static, acceleration, damping):
+    for axes, corner in ((static, "lower right"), (acceleration, "upper right"), (damping, "lower right")):
         axes.set_xlabel("Mach number")
         axes.set_ylabel("derivative, per rad")
         axes.set_xlim(1.45, 2.8)
         axes.grid(alpha=0.3)
-        axes.legend(fontsize=8, handlelength=3.0)
+        axes.legend(fontsize=8, handlelength=3.0, loc=corner)
     figure.suptitle(
         "Basic Finner (the paper's Fig. 5): derivatives of Cm, nose up +, per rad; length d, area πd²/4, rates times d/2V\n"
         f"moment centre in d from the nose; the paper's is not stated: {center:.2f} d is fitted to its static values",

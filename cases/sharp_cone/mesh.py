@@ -26,10 +26,11 @@ except ImportError as error:
     sys.exit(f"mesh.py: {error}; install the Debian packages python3-gmsh and python3-numpy and run with /usr/bin/python3")
 
 SLOPE = math.tan(math.radians(10.0))  # also the radius of the base
-# Cell size h on the surface, relative to the distance from the apex. The half model has about 10, 35, 100, 240 and 660 thousand
+# Cell size h on the surface, relative to the distance from the apex. The half model has about 10, 30, 100, 250 and 700 thousand
 # tetrahedra.
-LEVELS = {"tiny": 0.09, "small": 0.055, "coarse": 0.038, "medium": 0.0275, "fine": 0.0195}
-FLOOR = 0.06  # nearer to the apex than this, cells do not become smaller
+LEVELS = {"tiny": 0.0705, "small": 0.0435, "coarse": 0.029, "medium": 0.0206, "fine": 0.0147}
+GROWTH = 4.0  # of the cell size with the distance from the surface, in h
+TIP = 0.06  # nearer to the apex than this, cells do not become smaller
 
 # Far field: a frustum outside the bow shock for |alpha| <= 3 deg, whose waves therefore never come back.
 FAR_START, FAR_RADIUS, FAR_END = -0.05, 0.03, 1.12
@@ -46,17 +47,36 @@ def shock_angle(mach: float) -> float:
     return float(np.interp(mach, *known.T))
 
 
-def build_quarter(far_angle: float) -> None:
+def build_quarter(far_angle: float, h: float) -> None:
     """Make the fluid of the quarter y, z >= 0 the current gmsh model (OpenCASCADE); the angle is in degrees."""
     occ = gmsh.model.occ
     far_radius = FAR_RADIUS + (FAR_END - FAR_START) * math.tan(math.radians(far_angle))
-    profile = [(0.0, 0.0), (1.0, SLOPE), (1.0, 0.0), (FAR_END, 0.0), (FAR_END, far_radius), (FAR_START, FAR_RADIUS),
-               (FAR_START, 0.0)]  # fmt: skip
+    profile = [(0.0, 0.0), (TIP, TIP * SLOPE), (1.0, SLOPE), (1.0, 0.0), (FAR_END, 0.0), (FAR_END, far_radius),
+               (FAR_START, FAR_RADIUS), (FAR_START, 0.0)]  # fmt: skip
     points = [occ.addPoint(x, r, 0.0) for x, r in profile]
     lines = [occ.addLine(a, b) for a, b in zip(points, points[1:] + points[:1])]
     face = occ.addPlaneSurface([occ.addCurveLoop(lines)])
-    occ.revolve([(2, face)], 0, 0, 0, 1, 0, 0, math.pi / 2)
+    _, tip, body, *_ = (tag for dimension, tag in occ.revolve([(2, face)], 0, 0, 0, 1, 0, 0, math.pi / 2) if dimension == 2)
     occ.synchronize()
+    gmsh.model.mesh.setAlgorithm(2, tip, 1)  # MeshAdapt: the others leave needles at the apex
+    align(body, h)
+
+
+def align(body: int, h: float) -> None:
+    """Make gmsh lay a structured mesh, with rows of points along the generators, on the face of the cone behind the tip.
+
+    Triangles with an edge on a generator are facets of a pyramid, which is conical too. Others are tilted up and down along the
+    stream in turn, and the pressure on them scatters.
+    """
+    rows, columns = math.ceil(-math.log(TIP) / h), math.ceil(0.5 * math.pi * SLOPE / h)
+    for _, curve in gmsh.model.getBoundary([(2, body)], oriented=False):
+        if gmsh.model.getType(1, curve) == "Line":
+            (_, first), (_, last) = gmsh.model.getBoundary([(1, curve)])
+            backward = gmsh.model.getValue(0, first, [])[0] > gmsh.model.getValue(0, last, [])[0]
+            gmsh.model.mesh.setTransfiniteCurve(curve, rows + 1, "Progression", TIP ** ((1.0 if backward else -1.0) / rows))
+        else:
+            gmsh.model.mesh.setTransfiniteCurve(curve, columns + 1)
+    gmsh.model.mesh.setTransfiniteSurface(body, "Alternate")
 
 
 def size_field(h: float, shock: float) -> meshing.SizeField:
@@ -66,11 +86,9 @@ def size_field(h: float, shock: float) -> meshing.SizeField:
     def size(_dimension: int, _tag: int, x: float, y: float, z: float) -> float:
         r = math.hypot(y, z)
         across = r - SLOPE * x if x > 0.0 else r
-        # Half of h at the rim of the base, so that the fan there stays out of the last cells of the cone.
-        rim = min(1.0, 0.5 + 5.0 * math.hypot(x - 1.0, r - SLOPE))
         # The last wave that still reaches the base comes in less steep than the shock: nothing matters beyond.
         late = max(x - 1.0 + max(r - SLOPE, 0.0) / last, 0.0)
-        return h * min((max(math.hypot(x, r), FLOOR) + 2.0 * max(across, 0.0)) * rim + 12.0 * late, 6.0)
+        return h * min(max(math.hypot(x, r), TIP) + GROWTH * max(across, 0.0) + 12.0 * late, 6.0)
 
     return size
 
@@ -104,7 +122,7 @@ def build(h: float, arguments: argparse.Namespace) -> tuple[meshing.TetMesh, lis
     """The mesh, and lines that compare its patches with the exact cone."""
     shock = shock_angle(arguments.mach)
     gmsh.model.add("quarter")
-    build_quarter(shock + MARGIN)
+    build_quarter(shock + MARGIN, h)
     quarter = sector.mesh_quarter(size_field(h, shock), patch_name)
     compensate_chords(quarter)
     mesh, symmetry = sector.unfolded(quarter, arguments.model)

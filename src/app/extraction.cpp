@@ -2,7 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "analysis/harmonic_derivatives.hpp"
+#include "analysis/indicial.hpp"
+#include "analysis/ramp.hpp"
 #include "io/case_words.hpp"
 
 namespace alphadot {
@@ -30,16 +35,21 @@ std::string angle_column(MotionKind kind) {
   }
 }
 
-ForceHistory force_history(const History& history) {
+/// The history from one row on.
+ForceHistory force_history(const History& history, std::size_t first) {
   ForceHistory out;
-  out.time = history.column("t_star");
-  out.angle = history.column(angle_column(history.info.motion.kind));
+  const auto from = [&](const std::string& column) {
+    const auto& values = history.column(column);
+    return std::vector<Real>(values.begin() + static_cast<std::ptrdiff_t>(std::min(first, values.size())),
+                             values.end());
+  };
+  out.time = from("t_star");
+  out.angle = from(angle_column(history.info.motion.kind));
   out.loads.resize(out.time.size());
   out.bounds.resize(out.time.size());
   for (int i = 0; i < Coefficients::size(); ++i) {
     const auto name = std::string(coefficient_names[static_cast<std::size_t>(i)]);
-    const auto& values = history.column("total/" + name);
-    const auto& bounds = history.column("error/" + name);
+    const auto values = from("total/" + name), bounds = from("error/" + name);
     for (std::size_t step = 0; step < values.size(); ++step) {
       out.loads[step][i] = values[step];
       out.bounds[step][i] = std::abs(bounds[step]);
@@ -48,12 +58,43 @@ ForceHistory force_history(const History& history) {
   return out;
 }
 
+/// Loads of the first row, those before the motion.
+Coefficients initial_loads(const History& history) {
+  Coefficients out;
+  for (int i = 0; i < Coefficients::size(); ++i)
+    out[i] = history.column("total/" + std::string(coefficient_names[static_cast<std::size_t>(i)])).front();
+  return out;
+}
+
+/// Share of a ramp's record that its start may take.
+constexpr Real ramp_transient = 0.5;
+
 }  // namespace
 
 Extraction extract_derivatives(const History& history) {
   const auto& motion = history.info.motion;
+  switch (motion.kind) {
+    case MotionKind::none:
+    case MotionKind::table:
+      return {};
+    case MotionKind::step_alpha:
+      return {step_derivatives(force_history(history, 1), motion.kind, initial_loads(history),
+                               motion.amplitude * radians_per_degree),
+              fmt::format("step of {} degrees in alpha", motion.amplitude)};
+    case MotionKind::step_q:
+      return {
+          step_derivatives(force_history(history, 1), motion.kind, initial_loads(history), motion.amplitude),
+          fmt::format("step of {} in q", motion.amplitude)};
+    case MotionKind::ramp_alpha:
+      return {
+          ramp_derivatives(force_history(history, 1), initial_loads(history), history.column("alpha").front(),
+                           ramp_transient * history.column("t_star").back()),
+          fmt::format("ramp of {} degrees in alpha", motion.amplitude)};
+    default:
+      break;
+  }
   const HarmonicBasis basis{.reduced_frequency = motion.reduced_frequency};
-  return {harmonic_derivatives(force_history(history), motion.kind, basis).derivatives,
+  return {harmonic_derivatives(force_history(history, 0), motion.kind, basis).derivatives,
           fmt::format("harmonic fit, {}, k = {}", motion_name(motion.kind), motion.reduced_frequency)};
 }
 

@@ -14,7 +14,8 @@ struct Extraction {
 };
 
 /// Derivatives of the whole configuration ("total") by the method that the history's motion allows. Throws
-/// InputError when the history is too short or its motion yields none.
+/// InputError when the history is too short; a motion by table yields none. The first row of a step or a ramp
+/// holds the loads before it.
 Extraction extract_derivatives(const History& history);
 
 /// The word of the case file for a motion, "plunge".

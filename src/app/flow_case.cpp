@@ -8,8 +8,10 @@
 #include <utility>
 
 #include "app/loads.hpp"
+#include "app/motion_setup.hpp"
 #include "app/pictures.hpp"
 #include "app/progress.hpp"
+#include "app/watchdog.hpp"
 #include "core/error.hpp"
 #include "core/log.hpp"
 #include "io/case_file.hpp"
@@ -21,12 +23,10 @@ namespace alphadot {
 
 namespace {
 
-constexpr int block_sweeps = 2;
-
 std::unique_ptr<LinearSolver> make_linear_solver(const Discretization& discretization,
-                                                 const Communicator& comm, SchemeKind scheme) {
-  if (scheme == SchemeKind::lu_sgs) return std::make_unique<LuSgs>(discretization, comm);
-  return std::make_unique<BlockLuSgs>(discretization, comm, block_sweeps);
+                                                 const Communicator& comm, const SteadySettings& settings) {
+  if (settings.scheme == SchemeKind::lu_sgs) return std::make_unique<LuSgs>(discretization, comm);
+  return std::make_unique<BlockLuSgs>(discretization, comm, settings.sweeps);
 }
 
 std::string run_folder(const CaseArguments& arguments, const Case& settings) {
@@ -53,32 +53,106 @@ FlowCase::FlowCase(const CaseArguments& arguments, const Communicator& comm)
     : comm_(comm),
       setup_(prepare(arguments, comm)),
       folder_(run_folder(arguments, setup_.settings)),
+      checkpoints_(setup_, folder_, timer_, comm),
       discretization_(setup_.domain, setup_.patch_kinds, setup_.settings.space,
                       setup_.settings.freestream.gamma),
-      iteration_(discretization_, comm,
-                 make_linear_solver(discretization_, comm, setup_.settings.steady.scheme),
+      iteration_(discretization_, comm, make_linear_solver(discretization_, comm, setup_.settings.steady),
                  setup_.settings.reference.moment_center),
-      motion_(setup_.settings.motion, setup_.settings.freestream, setup_.settings.reference.length) {
+      motion_(make_motion(setup_.settings, comm)) {
   spdlog::info("{} cells, {} points on {} rank{}", setup_.mesh.cells, setup_.mesh.points, comm.size(),
                comm.size() == 1 ? "" : "s");
   const auto excluded = excluded_patches();
   if (!excluded.empty()) spdlog::info("left out of the forces: {}", fmt::join(excluded, ", "));
+  if (arguments.restart) checkpoints_.begin_from(*arguments.restart);
 }
 
 Conditions<Real> FlowCase::conditions() const {
-  return steady_conditions(motion_.wind(), settings().motion.axis_point, settings().freestream.gamma);
+  return steady_conditions(motion_.wind(), settings().motion.axis_point, settings().freestream.gamma,
+                           motion_.steady_rotation());
+}
+
+std::unique_ptr<Treatment> FlowCase::treatment(Real time_step) {
+  return make_treatment(settings().motion.treatment, motion_, settings().motion.axis_point, time_step,
+                        setup_.domain, discretization_, comm_);
+}
+
+CheckpointField FlowCase::flow_field() {
+  return {"flow", iteration_.flow().values()};
+}
+
+CheckpointHead FlowCase::checkpoint_head(std::string phase) const {
+  CheckpointHead out;
+  out.phase = std::move(phase);
+  out.message = message_;
+  out.history.info = history_info(settings(), setup_.mesh.hash);
+  for (const Load& load : steady_report_.loads)
+    for (int i = 0; i < 3; ++i) {
+      out.numbers["steady_forces"].push_back(load.force[i]);
+      out.numbers["steady_moments"].push_back(load.moment[i]);
+    }
+  return out;
+}
+
+void FlowCase::restore_steady(const CheckpointHead& head) {
+  message_ = head.message;
+  const auto& forces = head.numbers.at("steady_forces");
+  const auto& moments = head.numbers.at("steady_moments");
+  steady_report_ = {};
+  steady_report_.loads.resize(forces.size() / 3);
+  for (std::size_t patch = 0; patch < steady_report_.loads.size(); ++patch) {
+    Load& load = steady_report_.loads[patch];
+    for (int i = 0; i < 3; ++i) {
+      load.force[i] = forces[3 * patch + static_cast<std::size_t>(i)];
+      load.moment[i] = moments[3 * patch + static_cast<std::size_t>(i)];
+    }
+    steady_report_.total += load;
+  }
+}
+
+void FlowCase::save_steady(const SteadyState& state) {
+  auto head = checkpoint_head("steady");
+  head.numbers["iteration"] = {static_cast<Real>(state.iteration)};
+  head.numbers["cfl"] = {state.cfl};
+  head.numbers["residuals"] = {state.first_residual, state.previous_residual};
+  checkpoints_.save(head, {flow_field()});
 }
 
 RunStatus FlowCase::march() {
+  const auto* restart = checkpoints_.restart();
+  if (restart && restart->phase == "motion") {
+    restore_steady(*restart);
+    return RunStatus::converged;
+  }
   const auto now = conditions();
-  iteration_.set_uniform(now.free_stream);
+  SteadyState state;
+  if (restart) {
+    const auto& numbers = restart->numbers;
+    state = {static_cast<int>(numbers.at("iteration").at(0)), numbers.at("cfl").at(0),
+             numbers.at("residuals").at(0), numbers.at("residuals").at(1)};
+    checkpoints_.read({flow_field()});
+  } else {
+    iteration_.set_uniform(now.free_stream);
+  }
+  int saved = state.iteration;
   ProgressLines lines(settings());
-  const auto result = march_to_steady(iteration_, now, settings().steady, settings().space.order,
-                                      [&](const SteadyProgress& p) {
-                                        lines.show(p);
-                                        return true;
-                                      });
+  const Watchdog watchdog(
+      settings().checkpoint.watchdog_minutes, [&] { return iteration_.iterations(); }, comm_);
+  const int interval = settings().checkpoint.iterations;
+  const auto result = march_to_steady(
+      iteration_, now, settings().steady, settings().space.order,
+      [&](const SteadyProgress& p) {
+        lines.show(p);
+        state = p.state;
+        const Wish wish = checkpoints_.poll(interval > 0 && p.iteration % interval == 0);
+        if (wish.save && p.resumable) {
+          save_steady(state);
+          saved = state.iteration;
+        }
+        return !(wish.stop && p.resumable);
+      },
+      state);
   steady_report_ = result.report;
+  if (result.status == RunStatus::interrupted) message_ = checkpoints_.stop_reason();
   if (result.status == RunStatus::diverged)
     throw DivergedError("the steady march found no CFL number that holds");
   if (result.status == RunStatus::completed) {
@@ -86,6 +160,7 @@ RunStatus FlowCase::march() {
                            settings().steady.orders, result.iterations);
     spdlog::warn("{}", message_);
   }
+  if (state.iteration > saved) save_steady(state);
   return result.status;
 }
 
@@ -133,8 +208,15 @@ Result FlowCase::result(RunStatus status) const {
   return out;
 }
 
+void FlowCase::announce() const {
+  Result out = result(RunStatus::interrupted);
+  out.message = "the run has not ended, or was killed";
+  out.forces.clear();
+  comm_.on_root([&] { write_result(folder_ + "/result.json", out); });
+}
+
 void FlowCase::write(const Result& result) const {
-  write_pictures(folder_, setup_, iteration_, comm_);
+  if (result.status != RunStatus::interrupted) write_pictures(folder_, setup_, iteration_, comm_);
   comm_.on_root([&] {
     replace_file_with(folder_ + "/case.toml", resolved_case(settings()));
     write_result(folder_ + "/result.json", result);

@@ -1,22 +1,26 @@
 // A case set up for computing: what the verbs that solve the flow have in common.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "analysis/coefficients.hpp"
+#include "app/checkpoints.hpp"
 #include "app/setup.hpp"
 #include "app/verbs.hpp"
 #include "core/timer.hpp"
 #include "io/result.hpp"
 #include "solver/steady.hpp"
+#include "solver/treatment.hpp"
 
 namespace alphadot {
 
 /// Mesh, solver and steady flow of one case on this rank.
 class FlowCase {
  public:
-  /// Reads case and mesh, makes the run's folder. Collective. Throws InputError on every rank.
+  /// Reads case and mesh, makes the run's folder, chooses the checkpoint to begin from. Collective. Throws
+  /// InputError on every rank.
   FlowCase(const CaseArguments& arguments, const Communicator& comm);
 
   const Case& settings() const { return setup_.settings; }
@@ -28,14 +32,25 @@ class FlowCase {
   const FlowReport& steady_report() const { return steady_report_; }
 
   Conditions<Real> conditions() const;
-  /// Marches to the steady state with progress lines. Throws DivergedError.
+  /// The case's way to let the motion enter the equations; moves this case's mesh. Collective.
+  std::unique_ptr<Treatment> treatment(Real time_step);
+  /// Marches to the steady state with progress lines and checkpoints, from where a restart begins; nothing is
+  /// left to do when it begins in the motion. Throws DivergedError.
   RunStatus march();
+
+  Checkpoints& checkpoints() { return checkpoints_; }
+  /// The states of the flow, for a checkpoint.
+  CheckpointField flow_field();
+  /// A checkpoint's head with all that is known of the steady state.
+  CheckpointHead checkpoint_head(std::string phase) const;
   /// Why the run ended as it did, for the result.
   void set_message(std::string message) { message_ = std::move(message); }
 
   /// Everything in result.json but derivatives. Collective.
   Result result(RunStatus status) const;
-  /// Writes pictures, resolved case and result.json. Collective.
+  /// Writes a result.json that says interrupted: what stands there when the run is killed. Collective.
+  void announce() const;
+  /// Writes pictures (but when interrupted), resolved case and result.json. Collective.
   void write(const Result& result) const;
   /// The closing lines of a run.
   void print(const Result& result) const;
@@ -43,11 +58,15 @@ class FlowCase {
  private:
   std::vector<std::string> excluded_patches() const;
   PerformanceResult performance() const;
+  /// Puts the steady loads of a checkpoint made in the motion in place.
+  void restore_steady(const CheckpointHead& head);
+  void save_steady(const SteadyState& state);
 
   const Communicator& comm_;
   Timer timer_;
   Setup setup_;
   std::string folder_;
+  Checkpoints checkpoints_;
   Discretization discretization_;
   ImplicitIteration iteration_;
   Motion motion_;

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <csignal>
 #include <cstdio>
 #include <functional>
 #include <limits>
@@ -44,6 +45,7 @@ void add_case_arguments(CLI::App& verb, CaseArguments& arguments) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error like a full disk, not the end
   const MpiSession mpi(argc, argv);
   const Communicator comm;
 
@@ -60,6 +62,10 @@ int main(int argc, char** argv) {
   auto& run = *app.add_subcommand("run", "Steady state, motion and derivatives of a case");
   add_case_arguments(run, arguments);
   run.add_option("--out", arguments.folder, "Folder of the run (default: runs/<name of the case file>)");
+
+  auto* restart = run.add_option("--restart", "Go on from a checkpoint (default: the newest of the folder)")
+                      ->type_name("FILE")
+                      ->expected(0, 1);
 
   auto& derivatives = *app.add_subcommand(
       "derivatives", "Every stability derivative of a case from linear solves, no time stepping");
@@ -88,6 +94,7 @@ int main(int argc, char** argv) {
     if (comm.is_root()) code = app.exit(error);
     return code == 0 ? 0 : 2;
   }
+  if (*restart) arguments.restart = restart->results().empty() ? "" : restart->results().front();
   set_up_log(comm.is_root(), quiet);
 
   return guarded(comm, [&] {

@@ -1,13 +1,14 @@
 // The verb "run": steady state, motion, derivatives, files.
 #include <fmt/format.h>
 
-#include <cmath>
-
 #include "analysis/table.hpp"
 #include "app/extraction.hpp"
 #include "app/flow_case.hpp"
 #include "app/loads.hpp"
+#include "app/motion_setup.hpp"
 #include "app/progress.hpp"
+#include "app/stop.hpp"
+#include "app/watchdog.hpp"
 #include "core/error.hpp"
 #include "core/log.hpp"
 #include "io/history.hpp"
@@ -23,18 +24,20 @@ void append(History::Row& row, const std::string& group, const Coefficients& c) 
 
 History::Row history_row(const StepReport& step, const FlowCase& flow) {
   const Case& settings = flow.settings();
-  History::Row row{
-      {"step", step.step},
-      {"time", step.time},
-      {"t_star", flow.motion().reduced_time(step.time)},
-      {"alpha", step.attitude.alpha},
-      {"beta", step.attitude.beta},
-      {"phi", step.attitude.angle.x},
-      {"theta", step.attitude.angle.y},
-      {"psi", step.attitude.angle.z},
-      {"q", step.attitude.rotation.y * settings.reference.length / (2 * settings.freestream.mach)},
-      {"inner_iterations", step.inner_iterations},
-      {"inner_orders", step.inner_orders}};
+  const Real rate = settings.reference.length / (2 * settings.freestream.mach);
+  History::Row row{{"step", step.step},
+                   {"time", step.time},
+                   {"t_star", flow.motion().reduced_time(step.time)},
+                   {"alpha", step.attitude.alpha},
+                   {"beta", step.attitude.beta},
+                   {"phi", -step.attitude.angle.x},
+                   {"theta", step.attitude.angle.y},
+                   {"psi", -step.attitude.angle.z},
+                   {"p", -rate * step.attitude.rotation.x},
+                   {"q", rate * step.attitude.rotation.y},
+                   {"r", -rate * step.attitude.rotation.z},
+                   {"inner_iterations", step.inner_iterations},
+                   {"inner_orders", step.inner_orders}};
   append(row, "total", coefficients(step.report.total, settings));
   append(row, "error", coefficients(step.error, settings));
   const auto& setup = flow.setup();
@@ -44,20 +47,58 @@ History::Row history_row(const StepReport& step, const FlowCase& flow) {
   return row;
 }
 
+std::vector<CheckpointField> fields_of(FlowCase& flow, DualTime& dual_time) {
+  return {flow.flow_field(),
+          {"latest_level", dual_time.latest_level()},
+          {"level_before", dual_time.level_before()}};
+}
+
+void save(FlowCase& flow, DualTime& dual_time, const History& history) {
+  auto head = flow.checkpoint_head("motion");
+  const auto& state = dual_time.state();
+  head.numbers["step"] = {static_cast<Real>(state.step)};
+  head.numbers["largest"] = {state.largest_angle, state.largest_moment};
+  head.history = history;
+  flow.checkpoints().save(head, fields_of(flow, dual_time));
+}
+
+void restore(const CheckpointHead& head, FlowCase& flow, DualTime& dual_time, History& history) {
+  flow.checkpoints().read(fields_of(flow, dual_time));
+  const auto& numbers = head.numbers;
+  dual_time.restore(
+      {static_cast<int>(numbers.at("step").at(0)), numbers.at("largest").at(0), numbers.at("largest").at(1)});
+  history = head.history;
+  // The next linearisation, and the pictures, begin with ghosts and gradients of this flow.
+  flow.iteration().evaluate(flow.conditions(), flow.settings().space.order);
+}
+
 RunStatus follow_motion(FlowCase& flow, History& history) {
   const Case& settings = flow.settings();
-  const int steps =
-      static_cast<int>(std::lround(settings.unsteady.cycles * settings.unsteady.steps_per_cycle));
-  const Real time_step = flow.motion().period() / settings.unsteady.steps_per_cycle;
+  const auto [time_step, steps, tolerance] = time_plan(settings, flow.motion());
   DualTime dual_time(flow.iteration(), flow.motion(), settings.motion.axis_point, time_step,
-                     flow.steady_report().total);
-  const InnerTolerance tolerance{settings.unsteady.inner_tolerance * settings.motion.reduced_frequency,
-                                 settings.motion.amplitude * radians_per_degree, settings.unsteady.max_inner};
+                     flow.steady_report().total, flow.treatment(time_step));
+  const auto* restart = flow.checkpoints().restart();
+  if (restart && restart->phase == "motion") restore(*restart, flow, dual_time, history);
+  // The record of a response begins with the loads before it and, after a jump, with those just after.
+  if (dual_time.step() == 0 && !flow.motion().is_harmonic()) {
+    history.append(history_row(dual_time.before(), flow));
+    if (flow.motion().starts_with_jump()) history.append(history_row(dual_time.just_after_start(), flow));
+  }
   ProgressLines lines(settings);
+  const Watchdog watchdog(
+      settings.checkpoint.watchdog_minutes, [&] { return flow.iteration().iterations(); },
+      flow.communicator());
+  const int interval = settings.checkpoint.steps;
   while (dual_time.step() < steps) {
     const auto step = dual_time.advance(tolerance);
     lines.show(step, steps);
     history.append(history_row(step, flow));
+    const Wish wish = flow.checkpoints().poll(interval > 0 && step.step % interval == 0);
+    if (wish.save || step.step == steps) save(flow, dual_time, history);
+    if (wish.stop && step.step < steps) {
+      flow.set_message(flow.checkpoints().stop_reason());
+      return RunStatus::interrupted;
+    }
   }
   return RunStatus::completed;
 }
@@ -65,7 +106,9 @@ RunStatus follow_motion(FlowCase& flow, History& history) {
 }  // namespace
 
 RunStatus run_verb(const CaseArguments& arguments, const Communicator& comm) {
+  const SignalListener signals;
   FlowCase flow(arguments, comm);
+  flow.announce();
   History history(history_info(flow.settings(), flow.setup().mesh.hash));
   Extraction extraction;
   RunStatus status = RunStatus::error;
@@ -73,7 +116,7 @@ RunStatus run_verb(const CaseArguments& arguments, const Communicator& comm) {
     status = flow.march();
     if (status != RunStatus::interrupted && flow.settings().motion.kind != MotionKind::none) {
       status = follow_motion(flow, history);
-      extraction = extract_derivatives(history);
+      if (status != RunStatus::interrupted) extraction = extract_derivatives(history);
     }
   } catch (const DivergedError& error) {
     status = RunStatus::diverged;

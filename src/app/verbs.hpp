@@ -1,6 +1,7 @@
 // What the program can be asked to do; one function a verb.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,8 @@ struct CaseArguments {
   std::string case_file;
   std::vector<std::string> overrides;  ///< "key=value"
   std::string folder;                  ///< of the run; empty: as the case says
+  /// Go on from this checkpoint; empty: from the newest of the run's folder.
+  std::optional<std::string> restart;
 };
 
 /// Steady state, then the motion that the case asks for, derivatives, and everything written into the run's

@@ -47,12 +47,14 @@ struct SpaceSettings {
   GradientKind gradient = GradientKind::least_squares;
   LimiterKind limiter = LimiterKind::venkatakrishnan;
   Real limiter_k = 5;      ///< Venkatakrishnan's K
+  Real freeze_orders = 0;  ///< decades of residual after which the limiter is frozen; 0: never
   Real entropy_fix = 0.1;  ///< Harten's delta as a share of the spectral radius
 };
 
 struct SteadySettings {
   SchemeKind scheme = SchemeKind::block_lu_sgs;
-  Real cfl_start = 10, cfl_max = 1e6, cfl_growth = 1.5;
+  int sweeps = 4;  ///< pairs of forward and backward passes of the block scheme
+  Real cfl_start = 20, cfl_max = 1e6, cfl_growth = 2;
   int max_iterations = 2000;
   Real orders = 10;  ///< decades that the density residual must drop
 };
@@ -64,6 +66,7 @@ struct MotionSettings {
   Real reduced_frequency = 0.01;  ///< omega * length / (2 V)
   Vec3 axis_point;                ///< rotations are about this point
   std::string table_file;         ///< for kind = "table"
+  Vec3 rotation{};                ///< steady (p, q, r) * length / (2 V) at constant incidence, kind none only
 };
 
 struct UnsteadySettings {
@@ -82,6 +85,18 @@ struct OutputSettings {
   bool surface = true;  ///< write surface.vtkhdf
 };
 
+enum class FailureAction { stop, go_on };
+
+struct CheckpointSettings {
+  Real minutes = 30;            ///< of wall time between checkpoints; 0: not by time
+  int steps = 0;                ///< time steps between checkpoints; 0: not by steps
+  int iterations = 0;           ///< steady iterations between checkpoints; 0: not by iterations
+  int keep = 2;                 ///< the newest that are kept
+  Real wall_limit_minutes = 0;  ///< of the whole run: it ends with a checkpoint before; 0: no limit
+  FailureAction on_failure = FailureAction::stop;  ///< when a checkpoint cannot be written
+  Real watchdog_minutes = 0;  ///< without an iteration that end a run as hanging; 0: never
+};
+
 /// A whole case. `boundary` maps the mesh's patch names to their treatment.
 struct Case {
   std::string title;
@@ -95,6 +110,7 @@ struct Case {
   MotionSettings motion;
   UnsteadySettings unsteady;
   OutputSettings output;
+  CheckpointSettings checkpoint;
 };
 
 }  // namespace alphadot

@@ -1,6 +1,8 @@
 #include "motion/motion.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace alphadot {
 
@@ -16,16 +18,54 @@ Vec3 on_turned_axes(const Vec3& v, const Vec3& angle) {
   return c * v - s * cross(axis, v) + (1 - c) * dot(axis, v) * axis;
 }
 
-Motion::Motion(const MotionSettings& settings, const FreestreamSettings& stream, Real length)
+namespace {
+
+void turn(Attitude& attitude, int axis, Real angle, Real rate) {
+  attitude.angle[axis] = angle;
+  attitude.rotation[axis] = rate;
+}
+
+}  // namespace
+
+Motion::Motion(const MotionSettings& settings, const FreestreamSettings& stream, Real length, Real duration,
+               MotionTable table)
     : settings_(settings),
       speed_(stream.mach),
       length_(length),
       alpha_(stream.alpha * radians_per_degree),
       beta_(stream.beta * radians_per_degree),
+      amplitude_(settings.kind == MotionKind::step_q ? settings.amplitude * 2 * speed_ / length
+                                                     : settings.amplitude * radians_per_degree),
+      duration_(time_of(duration)),
+      table_(std::move(table)),
       wind_(wind_velocity(speed_, alpha_, beta_)) {}
 
 Real Motion::period() const {
   return 2 * pi / omega();
+}
+
+bool Motion::is_harmonic() const {
+  switch (settings_.kind) {
+    case MotionKind::plunge:
+    case MotionKind::sway:
+    case MotionKind::pitch:
+    case MotionKind::yaw:
+    case MotionKind::roll:
+    case MotionKind::flap:
+      return true;
+    default:
+      return false;
+  }
+}
+
+bool Motion::starts_with_jump() const {
+  const Attitude start = at(0);
+  return norm(start.velocity) + norm(start.rotation) > 0;
+}
+
+Vec3 Motion::steady_rotation() const {
+  const Vec3& reduced = settings_.rotation;
+  return 2 * speed_ / length_ * Vec3{-reduced.x, reduced.y, -reduced.z};
 }
 
 Real Motion::driven_angle(const Attitude& attitude) const {
@@ -34,12 +74,18 @@ Real Motion::driven_angle(const Attitude& attitude) const {
     case MotionKind::yaw:
       return attitude.beta - beta_;
     case MotionKind::roll:
-      return attitude.angle.x;
+      return -attitude.angle.x;
     case MotionKind::flap:
       return attitude.angle.y;
     default:
       return attitude.alpha - alpha_;
   }
+}
+
+Real Motion::driven_amplitude() const {
+  return is_harmonic() || settings_.kind == MotionKind::step_alpha || settings_.kind == MotionKind::ramp_alpha
+             ? amplitude_
+             : 0;
 }
 
 int Motion::moment_axis() const {
@@ -54,30 +100,105 @@ int Motion::moment_axis() const {
   }
 }
 
+void Motion::sink(Attitude& attitude, Real change) const {
+  // The air gains w' along z, that is the body sinks at w'; the x velocity stays.
+  attitude.alpha += change;
+  attitude.velocity.z = -speed_ * std::cos(beta_) * std::sin(change) / std::cos(attitude.alpha);
+  // The speed in the plane of symmetry changes, and with it what the lateral speed means as an angle.
+  if (beta_ != 0 && change != 0)
+    attitude.beta =
+        std::atan2(std::sin(beta_), std::cos(beta_) * std::cos(alpha_) / std::cos(attitude.alpha));
+}
+
+void Motion::hold_wind(Attitude& attitude) const {
+  attitude.velocity = wind_ - on_turned_axes(wind_, -attitude.angle);
+}
+
+void Motion::find_incidence(Attitude& attitude) const {
+  const Vec3 air = on_turned_axes(wind_ - attitude.velocity, attitude.angle);
+  attitude.alpha = std::atan2(air.z, air.x);
+  attitude.beta = std::atan2(-air.y, std::hypot(air.x, air.z));
+}
+
+void Motion::follow_table(Attitude& attitude, Real time) const {
+  const Real t = reduced_time(time), per_time = 2 * speed_ / length_;
+  if (table_.theta) turn(attitude, 1, table_.theta->value(t), per_time * table_.theta->rate(t));
+  if (table_.alpha) {
+    // On the turned axes the wind keeps its axial and lateral components.
+    attitude.alpha = table_.alpha->value(t);
+    const Vec3 air{wind_.x, wind_.y, wind_.x * std::tan(attitude.alpha)};
+    attitude.velocity = wind_ - on_turned_axes(air, -attitude.angle);
+    return;
+  }
+  for (int axis = 0; axis < 3; ++axis)
+    if (const auto& curve = table_.position[axis]) attitude.velocity[axis] = per_time * curve->rate(t);
+  find_incidence(attitude);
+}
+
 Attitude Motion::at(Real time) const {
   Attitude out{.alpha = alpha_, .beta = beta_, .angle = {}, .rotation = {}, .velocity = {}};
+  if (time < 0) return out;
   const Real phase = omega() * time;
-  const Real amplitude = settings_.amplitude * radians_per_degree;
-  const Real angle = amplitude * std::sin(phase), rate = amplitude * omega() * std::cos(phase);
+  const Real angle = amplitude_ * std::sin(phase), rate = amplitude_ * omega() * std::cos(phase);
   switch (settings_.kind) {
+    case MotionKind::none:
+      break;
     case MotionKind::plunge:
-      // Paper, equation (4): the air gains w' along z, that is the body sinks at w'; the x velocity stays.
-      out.alpha += angle;
-      out.velocity.z = -speed_ * std::cos(beta_) * std::sin(angle) / std::cos(alpha_ + angle);
+      sink(out, angle);
       break;
     case MotionKind::sway:
       out.beta += angle;
       out.velocity.y = speed_ * std::sin(angle) / std::cos(beta_ + angle);
       break;
     case MotionKind::pitch:
+      turn(out, 1, angle, rate);
       out.alpha += angle;
-      out.angle.y = angle;
-      out.rotation.y = rate;
       break;
-    default:
+    case MotionKind::yaw:
+      turn(out, 2, angle, rate);
+      find_incidence(out);
+      break;
+    case MotionKind::roll:
+      turn(out, 0, -angle, -rate);
+      find_incidence(out);
+      break;
+    case MotionKind::flap:
+      turn(out, 1, angle, rate);
+      hold_wind(out);
+      break;
+    case MotionKind::step_alpha:
+      sink(out, amplitude_);
+      break;
+    case MotionKind::ramp_alpha:
+      sink(out, amplitude_ * std::min(time / duration_, Real{1}));
+      break;
+    case MotionKind::step_q:
+      turn(out, 1, amplitude_ * time, amplitude_);
+      hold_wind(out);
+      break;
+    case MotionKind::table:
+      follow_table(out, time);
       break;
   }
   return out;
+}
+
+Vec3 Motion::travel(Real time) const {
+  // Gauss's five points a panel; sixteen panels a period, or 64 over the time, are exact to round-off for
+  // smooth motions.
+  constexpr Real nodes[] = {0, 0.5384693101056831, 0.9061798459386640};
+  constexpr Real weights[] = {128.0 / 225, 0.4786286704993665, 0.2369268850561891};
+  const int panels = is_harmonic() ? 1 + static_cast<int>(16 * time / period()) : 64;
+  const Real half = time / (2 * panels);
+  Vec3 sum;
+  for (int panel = 0; panel < panels && time > 0; ++panel) {
+    const Real middle = (2 * panel + 1) * half;
+    sum += half * weights[0] * at(middle).velocity;
+    for (int i = 1; i < 3; ++i)
+      sum +=
+          half * weights[i] * (at(middle - half * nodes[i]).velocity + at(middle + half * nodes[i]).velocity);
+  }
+  return sum;
 }
 
 }  // namespace alphadot

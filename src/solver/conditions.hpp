@@ -1,23 +1,51 @@
 // What drives the flow at one moment: the free stream and the motion of the grid through it.
 #pragma once
 
+#include <vector>
+
+#include "core/types.hpp"
 #include "euler/state.hpp"
 #include "motion/motion.hpp"
 #include "motion/rigid_motion.hpp"
 
 namespace alphadot {
 
+/// Speeds of faces along their unit normals, for a grid that does not move as a rigid body.
+struct FaceSpeeds {
+  std::vector<Real> interior;  ///< [faces]
+  std::vector<Real> boundary;  ///< [boundary_faces]
+};
+
 /// Free stream and grid velocity along the axes in which the flow is solved. On rotating body axes the
 /// velocity stays absolute and only its components turn: the momentum balance gains -rho rotation x (u -
-/// turning_stream) in every cell. The turning stream is zero where the free stream keeps its direction in
-/// space (forced pitch: its components turn), and the free-stream velocity where the flight path turns with
-/// the body (steady rotation at constant incidence): what must stay at rest far away is the air, not its
-/// components.
+/// turning_stream) in every cell, and the energy balance the work of that. The turning stream is zero where
+/// the free stream keeps its direction in space (forced pitch: its components turn), and the free-stream
+/// velocity where the flight path turns with the body (steady rotation at constant incidence): what must stay
+/// at rest far away is the air, not its components.
 template <class T>
 struct Conditions {
   Primitive<T> free_stream;
   GridMotion<T> grid;
   Vec3Of<T> turning_stream{};
+  /// False where the axes do not turn with the grid, and where a time scheme turns its old levels instead.
+  bool turning_source = true;
+  /// Takes the place of `grid` when there is one; outlives the conditions.
+  const FaceSpeeds* face_speeds = nullptr;
+
+  /// Speed of an interior face along its unit normal.
+  T face_speed(Index face, const Vec3& center, const Vec3& normal) const {
+    return face_speeds ? T(face_speeds->interior[static_cast<std::size_t>(face)])
+                       : grid.normal_speed(center, normal);
+  }
+  /// Volume that an interior face sweeps per unit of time; `area` is its area vector.
+  T face_sweep(Index face, const Vec3& center, const Vec3& area) const {
+    return face_speeds ? T(norm(area) * face_speeds->interior[static_cast<std::size_t>(face)])
+                       : dot(grid.at(center), area);
+  }
+  /// Speed of a boundary face along its unit normal.
+  T boundary_speed(std::size_t face, const Vec3& center, const Vec3& normal) const {
+    return face_speeds ? T(face_speeds->boundary[face]) : grid.normal_speed(center, normal);
+  }
 };
 
 /// Conditions of the field velocity approach: a still mesh, everything along body axes.
@@ -29,9 +57,10 @@ inline Conditions<Real> field_velocity_conditions(const Attitude& attitude, cons
           {}};
 }
 
-/// Conditions of steady flight at fixed incidence: nothing moves, and a rotation would turn the stream too.
-inline Conditions<Real> steady_conditions(const Vec3& wind, const Vec3& axis_point, Real gamma) {
-  return {free_stream(wind, gamma), {{}, {}, axis_point}, wind};
+/// Conditions of steady flight at fixed incidence, the flight path turning with the body's `rotation`.
+inline Conditions<Real> steady_conditions(const Vec3& wind, const Vec3& axis_point, Real gamma,
+                                          const Vec3& rotation = {}) {
+  return {free_stream(wind, gamma), {{}, rotation, axis_point}, wind};
 }
 
 }  // namespace alphadot

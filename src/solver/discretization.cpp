@@ -1,5 +1,7 @@
 #include "solver/discretization.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <utility>
 
@@ -30,6 +32,11 @@ Symmetric3 inverse(const Symmetric3& a) {
           scale * (a.xx * a.yy - a.xy * a.xy)};
 }
 
+Vec3 operator*(const Symmetric3& a, const Vec3& b) {
+  return {a.xx * b.x + a.xy * b.y + a.xz * b.z, a.xy * b.x + a.yy * b.y + a.yz * b.z,
+          a.xz * b.x + a.yz * b.y + a.zz * b.z};
+}
+
 void add_square(Symmetric3& sum, const Vec3& d) {
   sum.xx += d.x * d.x;
   sum.xy += d.x * d.y;
@@ -47,10 +54,22 @@ void Discretization::update_geometry() {
   point_moments_.assign(points, {});
   for (Index point = 0; point < domain_.owned_points; ++point) {
     auto& moments = point_moments_[point];
+    Symmetric3 second{};
     for (const Index cell : domain_.point_cells[point]) {
+      const Vec3 d = domain_.center[cell] - domain_.points[point];
       moments.count += 1;
-      moments.first += domain_.center[cell] - domain_.points[point];
+      moments.first += d;
+      add_square(second, d);
     }
+    // Where few cells do not span space (a corner), their plain mean must do.
+    const Vec3 lambda = -(inverse(second) * moments.first);
+    if (moments.count < 4 || !std::isfinite(norm(lambda))) continue;
+    moments.lambda = lambda;
+    // On the boundary, where the cells lie to one side, weights are kept from turning negative.
+    Real largest = 0;
+    for (const Index cell : domain_.point_cells[point])
+      largest = std::max(largest, std::abs(dot(moments.lambda, domain_.center[cell] - domain_.points[point])));
+    if (largest > 1) moments.lambda = (1 / largest) * moments.lambda;
   }
 
   std::vector<std::uint8_t> impermeable_faces(cells, 0);

@@ -14,6 +14,9 @@ namespace alphadot {
 struct PointMoments {
   Real count;
   Vec3 first;
+  /// Makes the weights 1 + lambda . (c_j - x) of the cells give the point the value of any linear field (Holmes &
+  /// Connell 1989).
+  Vec3 lambda;
 };
 
 /// Symmetric 3 x 3 matrix (xx, xy, xz, yy, yz, zz).
@@ -52,6 +55,7 @@ class Discretization {
   }
   /// Inverse of the normal matrix of the least-squares fit; zero where the cell stays first order.
   const Symmetric3& inverse_fit(Index cell) const { return inverse_fit_[static_cast<std::size_t>(cell)]; }
+  bool is_flat(Index cell) const { return inverse_fit(cell).xx == 0; }
   /// Cells whose gradient is held at zero: two or more faces on walls or symmetry planes leave too little to
   /// fit.
   Index flat_cells() const { return flat_cells_; }

@@ -12,40 +12,89 @@ namespace alphadot {
 namespace {
 constexpr Real pseudo_cfl = 1e6;     // the physical time term is damping enough
 constexpr Real slowest_rate = 0.95;  // of convergence of the moment that its error estimate allows for
+
+/// The same state along axes turned by `angle`.
+Conserved<Real> turned(const Conserved<Real>& u, const Vec3& angle) {
+  const Vec3 momentum = on_turned_axes({u[1], u[2], u[3]}, angle);
+  return {{u[0], momentum.x, momentum.y, momentum.z, u[4]}};
+}
+
+/// Pressure on a wall, as a share of that of the gas at rest on it, once the wall moves into the gas at this
+/// normal Mach number: behind a shock, or in a simple wave when it recedes.
+Real pressure_ratio(Real mach, Real gamma) {
+  if (mach < 0) {
+    const Real base = std::max(1 + 0.5 * (gamma - 1) * mach, Real{0});
+    return std::pow(base, 2 * gamma / (gamma - 1));
+  }
+  const Real quarter = 0.25 * (gamma + 1) * mach;
+  return 1 + gamma * mach * (quarter + std::sqrt(1 + quarter * quarter));
+}
+
+/// What the start of the walls with the speeds of `grid` adds to the loads of every patch on this rank.
+std::vector<Load> starting_loads(const Discretization& discretization, const Residual<Real>& residual,
+                                 const FlowField<Real>& flow, const GridMotion<Real>& grid,
+                                 const Vec3& center) {
+  const Subdomain& domain = discretization.domain();
+  const Real gamma = discretization.gamma();
+  std::vector<Load> loads(domain.patch_names.size());
+  for (std::size_t i = 0; i < domain.boundary_faces.size(); ++i) {
+    const auto& face = domain.boundary_faces[i];
+    if (discretization.kind_of(face) != BoundaryKind::wall) continue;
+    const Vec3 at = domain.boundary_center[i], area = domain.boundary_normal[i];
+    const auto inside = residual.face_state(flow, face.cell, at, discretization.space().order);
+    const Real mach = -dot(grid.at(at), area) / (norm(area) * sound_speed(inside, gamma));
+    const Vec3 force = inside[4] * (pressure_ratio(mach, gamma) - 1) * area;
+    loads[static_cast<std::size_t>(face.patch)] += Load{force, cross(at - center, force)};
+  }
+  return loads;
+}
 }  // namespace
 
 DualTime::DualTime(ImplicitIteration& iteration, const Motion& motion, const Vec3& axis_point, Real time_step,
-                   const Load& initial)
+                   const Load& initial, std::unique_ptr<Treatment> treatment)
     : iteration_(iteration),
       motion_(motion),
+      treatment_(std::move(treatment)),
       axis_point_(axis_point),
       time_step_(time_step),
       initial_(initial),
       old_(static_cast<std::size_t>(iteration.discretization().domain().owned_cells)) {
-  const Real gamma = iteration.discretization().gamma();
-  for (std::size_t cell = 0; cell < old_.size(); ++cell)
-    old_[cell] = conserved(iteration.flow()[static_cast<Index>(cell)], gamma);
+  if (!treatment_)
+    treatment_ = std::make_unique<FieldVelocity>(motion, axis_point, time_step, iteration.discretization());
+  keep_levels({});
   older_ = old_;
 }
 
-void DualTime::predict() {
+void DualTime::predict(const Vec3& axes) {
   const Real gamma = iteration_.discretization().gamma();
   for (std::size_t i = 0; i < old_.size(); ++i) {
-    const auto guess = primitive(Real{2} * old_[i] - older_[i], gamma);
+    const auto guess = primitive(turned(Real{2} * old_[i] - older_[i], axes), gamma);
     auto& w = iteration_.flow()[static_cast<Index>(i)];
     if (guess[0] > 0.5 * w[0] && guess[4] > 0.5 * w[4]) w = guess;
   }
 }
 
-void DualTime::add_time_derivative() {
+void DualTime::add_time_derivative(const Vec3& axes) {
   const Subdomain& domain = iteration_.discretization().domain();
   const Real gamma = iteration_.discretization().gamma();
+  const TimeWeights weight = time_weights(state_.step, time_step_);
+  const auto volume = treatment_->volumes(0), old_volume = treatment_->volumes(1),
+             older_volume = treatment_->volumes(2);
   auto values = iteration_.residual_values();
   for (Index cell = 0; cell < domain.owned_cells; ++cell) {
-    const Real scale = domain.volume[cell] / (2 * time_step_);
     const auto now = conserved(iteration_.flow()[cell], gamma);
-    values[cell] += scale * (Real{3} * now - Real{4} * old_[cell] + older_[cell]);
+    values[cell] +=
+        weight.now * volume[cell] * now +
+        turned(weight.old * old_volume[cell] * old_[cell] + weight.older * older_volume[cell] * older_[cell],
+               axes);
   }
+}
+
+FlowReport DualTime::report() const {
+  FlowReport out = iteration_.report();
+  for (Load& load : out.loads) load = treatment_->on_body(load, iteration_.moment_center());
+  out.total = treatment_->on_body(out.total, iteration_.moment_center());
+  return out;
 }
 
 Real DualTime::moment_scale(const StepReport& step, Real amplitude) {
@@ -53,15 +102,47 @@ Real DualTime::moment_scale(const StepReport& step, Real amplitude) {
   state_.largest_angle = std::max(state_.largest_angle, std::abs(motion_.driven_angle(step.attitude)));
   state_.largest_moment =
       std::max(state_.largest_moment, std::abs(step.report.total.moment[axis] - initial_.moment[axis]));
-  return state_.largest_angle > 0 ? state_.largest_moment * amplitude / state_.largest_angle
-                                  : state_.largest_moment;
+  return amplitude > 0 && state_.largest_angle > 0 ? state_.largest_moment * amplitude / state_.largest_angle
+                                                   : state_.largest_moment;
 }
 
-void DualTime::keep_levels() {
+void DualTime::keep_levels(const Vec3& axes) {
   const Real gamma = iteration_.discretization().gamma();
   std::swap(older_, old_);
+  old_.resize(older_.size());
   for (std::size_t i = 0; i < old_.size(); ++i)
-    old_[i] = conserved(iteration_.flow()[static_cast<Index>(i)], gamma);
+    old_[i] = turned(conserved(iteration_.flow()[static_cast<Index>(i)], gamma), -axes);
+}
+
+StepReport DualTime::before() const {
+  StepReport out;
+  out.attitude = motion_.at(-1);
+  out.report = report();
+  return out;
+}
+
+StepReport DualTime::just_after_start() const {
+  StepReport out = before();
+  out.attitude = motion_.at(0);
+  const auto grid = field_velocity_conditions(out.attitude, motion_.wind(), axis_point_,
+                                              iteration_.discretization().gamma())
+                        .grid;
+  auto gains = starting_loads(iteration_.discretization(), iteration_.residual(), iteration_.flow(), grid,
+                              iteration_.moment_center());
+  std::vector<Real> buffer;
+  for (const Load& load : gains)
+    for (int i = 0; i < 3; ++i) buffer.insert(buffer.end(), {load.force[i], load.moment[i]});
+  iteration_.communicator().sum(std::span<Real>(buffer));
+  auto next = buffer.begin();
+  for (std::size_t patch = 0; patch < gains.size(); ++patch) {
+    for (int i = 0; i < 3; ++i) {
+      gains[patch].force[i] = *next++;
+      gains[patch].moment[i] = *next++;
+    }
+    out.report.loads[patch] += gains[patch];
+    out.report.total += gains[patch];
+  }
+  return out;
 }
 
 StepReport DualTime::advance(const InnerTolerance& tolerance) {
@@ -69,17 +150,18 @@ StepReport DualTime::advance(const InnerTolerance& tolerance) {
   out.step = ++state_.step;
   out.time = time();
   out.attitude = motion_.at(out.time);
-  const auto conditions = field_velocity_conditions(out.attitude, motion_.wind(), axis_point_,
-                                                    iteration_.discretization().gamma());
+  const auto conditions = treatment_->move_to(state_.step);
+  const Vec3 axes = treatment_->axes(out.attitude);
+  const Real inverse_step = time_weights(state_.step, time_step_).now;
   const int axis = motion_.moment_axis();
-  predict();
-  iteration_.linearise(conditions, {.cfl = pseudo_cfl, .inverse_step = 1.5 / time_step_});
+  predict(axes);
+  iteration_.linearise(conditions, {.cfl = pseudo_cfl, .inverse_step = inverse_step});
   Real first = 0, change = 0;
   Load previous;
   for (int inner = 0;; ++inner) {
     iteration_.evaluate(conditions, iteration_.discretization().space().order);
-    add_time_derivative();
-    out.report = iteration_.report();
+    add_time_derivative(axes);
+    out.report = report();
     if (!out.report.physical)
       throw DivergedError("the flow became unphysical in time step " + std::to_string(state_.step));
     if (inner == 0) first = std::max(out.report.density_residual, 1e-300);
@@ -98,7 +180,7 @@ StepReport DualTime::advance(const InnerTolerance& tolerance) {
     if (inner >= tolerance.max_iterations) break;
     iteration_.advance();
   }
-  keep_levels();
+  keep_levels(axes);
   return out;
 }
 

@@ -61,18 +61,17 @@ Index ImplicitIteration::advance() {
   solver_->solve(values_, update_);
   Index capped = 0;
   for (Index cell = 0; cell < discretization_.domain().owned_cells; ++cell) {
-    const Real share = capped_share(flow_[cell], update_[cell]);
-    if (share < 1) {
-      ++capped;
-      update_[cell] = share * update_[cell];
-    }
-    flow_[cell] += update_[cell];
+    const Primitive<Real> before = flow_[cell];
+    const Real share = capped_share(before, update_[cell]);
+    if (share < 1) ++capped;
+    flow_[cell] += share * update_[cell];
+    update_[cell] = before;
   }
   return capped;
 }
 
 void ImplicitIteration::undo() {
-  for (Index cell = 0; cell < discretization_.domain().owned_cells; ++cell) flow_[cell] -= update_[cell];
+  std::copy(update_.begin(), update_.end(), flow_.values().begin());
 }
 
 std::size_t ImplicitIteration::bytes() const {

@@ -38,6 +38,8 @@ class ImplicitIteration {
 
   void set_uniform(const Primitive<Real>& state);
 
+  /// Holds the limiter's factors of the latest evaluation, or lets them go.
+  void freeze_limiter(bool frozen) { residual_.freeze_limiter(frozen); }
   /// Evaluates R(W) into residual_values().
   void evaluate(const Conditions<Real>& conditions, int order);
   /// Norm, loads and flags of the latest evaluation: one all-reduce.
@@ -68,7 +70,7 @@ class ImplicitIteration {
   FlowField<Real> flow_;
   Residual<Real> residual_;
   std::vector<Conserved<Real>> values_;  // [owned_cells]
-  std::vector<Primitive<Real>> update_;  // [owned_cells] as added, after capping
+  std::vector<Primitive<Real>> update_;  // [owned_cells]; after advance(): the flow before it
   int order_ = 1;
   GlobalIndex iterations_ = 0;
 };

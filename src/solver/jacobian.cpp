@@ -60,7 +60,7 @@ void face_terms(const Discretization& discretization, const FlowField<Real>& flo
     const auto [left, right] = domain.faces[face];
     const Real area = norm(domain.face_normal[face]);
     const Vec3 normal = (1 / area) * domain.face_normal[face];
-    const Real speed = conditions.grid.normal_speed(domain.face_center[face], normal);
+    const Real speed = conditions.face_speed(face, domain.face_center[face], normal);
     const auto flux = numerical_flux(discretization.flux(), independent<10>(flow[left], 0),
                                      independent<10>(flow[right], 5), normal, Dual<10>(speed));
     add_derivative(diagonal[left], flux, 0, area);
@@ -86,7 +86,7 @@ void boundary_terms(const Discretization& discretization, const FlowField<Real>&
     const auto& face = domain.boundary_faces[i];
     const Real area = norm(domain.boundary_normal[i]);
     const Vec3 normal = (1 / area) * domain.boundary_normal[i];
-    const Real speed = conditions.grid.normal_speed(domain.boundary_center[i], normal);
+    const Real speed = conditions.boundary_speed(i, domain.boundary_center[i], normal);
     const auto inside = independent<5>(flow[face.cell], 0);
     const auto flux = is_impermeable(discretization.kind_of(face))
                           ? wall_flux(inside[4], normal, Dual<5>(speed))

@@ -23,7 +23,7 @@ void LuSgs::linearise(const FlowField<Real>& flow, const Conditions<Real>& condi
     const auto [left, right] = domain.faces[face];
     const Real area = norm(domain.face_normal[face]);
     const Vec3 normal = (1 / area) * domain.face_normal[face];
-    const Real speed = conditions.grid.normal_speed(domain.face_center[face], normal);
+    const Real speed = conditions.face_speed(static_cast<Index>(face), domain.face_center[face], normal);
     face_wave_[face] = 0.5 * area *
                        std::max(spectral_radius(flow[left], normal, speed, gamma),
                                 spectral_radius(flow[right], normal, speed, gamma));
@@ -34,7 +34,7 @@ void LuSgs::linearise(const FlowField<Real>& flow, const Conditions<Real>& condi
     const Index cell = domain.boundary_faces[i].cell;
     const Real area = norm(domain.boundary_normal[i]);
     const Vec3 normal = (1 / area) * domain.boundary_normal[i];
-    const Real speed = conditions.grid.normal_speed(domain.boundary_center[i], normal);
+    const Real speed = conditions.boundary_speed(i, domain.boundary_center[i], normal);
     diagonal_[cell] += 0.5 * area * spectral_radius(flow[cell], normal, speed, gamma);
   }
   for (Index cell = 0; cell < domain.owned_cells; ++cell)
@@ -51,7 +51,7 @@ Conserved<Real> LuSgs::off_diagonal(Index row) const {
     const Conserved<Real>& du = update_[other];
     const Vec3& area = domain.face_normal[face];
     const Real half = left == row ? 0.5 : -0.5;
-    const Real swept = dot(conditions_.grid.at(domain.face_center[face]), area);
+    const Real swept = conditions_.face_sweep(face, domain.face_center[face], area);
     const auto& w = (*flow_)[other];
     const auto changed = w + primitive_change(w, du, gamma);
     sum += half * (physical_flux(changed, area, swept, gamma) - physical_flux(w, area, swept, gamma)) -

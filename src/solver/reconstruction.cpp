@@ -1,6 +1,5 @@
 #include "solver/reconstruction.hpp"
 
-#include <array>
 #include <cmath>
 
 #include "core/dual.hpp"
@@ -12,12 +11,20 @@ template <class T>
 Reconstruction<T>::Reconstruction(const Discretization& discretization, const Communicator& comm)
     : discretization_(discretization),
       gradients_(discretization.domain(), comm, HaloWidth::faces),
-      points_(static_cast<std::size_t>(discretization.domain().owned_points)) {}
+      points_(static_cast<std::size_t>(discretization.domain().owned_points)),
+      factors_(discretization.space().freeze_orders > 0
+                   ? static_cast<std::size_t>(discretization.domain().owned_cells)
+                   : 0) {}
 
 template <class T>
 void Reconstruction<T>::update(const FlowField<T>& flow) {
   gather_points(flow);
-  fit_cells(flow);
+  switch (discretization_.space().limiter) {
+    case LimiterKind::venkatakrishnan: return fit_cells<LimiterKind::venkatakrishnan>(flow);
+    case LimiterKind::mlp_u2: return fit_cells<LimiterKind::mlp_u2>(flow);
+    case LimiterKind::barth_jespersen: return fit_cells<LimiterKind::barth_jespersen>(flow);
+    case LimiterKind::none: return fit_cells<LimiterKind::none>(flow);
+  }
 }
 
 template <class T>
@@ -45,58 +52,127 @@ void Reconstruction<T>::gather_points(const FlowField<T>& flow) {
 }
 
 template <class T>
-void Reconstruction<T>::fit_cells(const FlowField<T>& flow) {
+Gradient<T> Reconstruction<T>::least_squares(Index cell, const Arms& arms, const Primitive<T>& w) const {
+  const auto& corners = discretization_.domain().cell_points[cell];
+  Gradient<T> right{};
+  Vec3 offset{};
+  for (std::size_t corner = 0; corner < 4; ++corner) {
+    const PointSums& sums = points_[corners[corner]];
+    const PointMoments& moments = discretization_.point_moments(corners[corner]);
+    offset += moments.first - moments.count * arms[corner];
+    for (int axis = 0; axis < 3; ++axis)
+      for (int i = 0; i < 5; ++i)
+        right.along[axis][i] += sums.moment.along[axis][i] - arms[corner][axis] * sums.value[i];
+  }
+  const Symmetric3& a = discretization_.inverse_fit(cell);
+  Gradient<T> out;
+  for (int i = 0; i < 5; ++i) {
+    const T bx = right.along[0][i] - offset.x * w[i], by = right.along[1][i] - offset.y * w[i],
+            bz = right.along[2][i] - offset.z * w[i];
+    out.along[0][i] = a.xx * bx + a.xy * by + a.xz * bz;
+    out.along[1][i] = a.xy * bx + a.yy * by + a.yz * bz;
+    out.along[2][i] = a.xz * bx + a.yz * by + a.zz * bz;
+  }
+  return out;
+}
+
+template <class T>
+Gradient<T> Reconstruction<T>::green_gauss(Index cell) const {
   const Subdomain& domain = discretization_.domain();
-  const LimiterKind limiter = discretization_.space().limiter;
-  const Real k3 = std::pow(discretization_.space().limiter_k, 3);
-  const Real gamma = discretization_.gamma();
-  for (Index cell = 0; cell < domain.owned_cells; ++cell) {
-    const auto& corners = domain.cell_points[cell];
-    const Primitive<T>& w = flow[cell];
-    std::array<Vec3, 4> arm;  // from each corner to the centroid
-    Gradient<T> right{};
-    Vec3 offset{};
-    Primitive<T> minimum = points_[corners[0]].minimum, maximum = points_[corners[0]].maximum;
-    for (int corner = 0; corner < 4; ++corner) {
-      const Index point = corners[corner];
-      const PointSums& sums = points_[point];
-      const PointMoments& moments = discretization_.point_moments(point);
-      const Vec3 e = domain.center[cell] - domain.points[point];
-      arm[corner] = e;
-      offset += moments.first - moments.count * e;
-      for (int i = 0; i < 5; ++i) {
-        for (int axis = 0; axis < 3; ++axis)
-          right.along[axis][i] += sums.moment.along[axis][i] - e[axis] * sums.value[i];
-        minimum[i] = sums.minimum[i] < minimum[i] ? sums.minimum[i] : minimum[i];
-        maximum[i] = sums.maximum[i] > maximum[i] ? sums.maximum[i] : maximum[i];
-      }
-    }
-    const Symmetric3& a = discretization_.inverse_fit(cell);
-    // (K h)^3 with h^3 = 6 V (a cube's corner); scales of density, speed and pressure: 1, 1 and 1/gamma.
-    const Real epsilon2 = k3 * 6 * domain.volume[cell];
-    Gradient<T>& gradient = gradients_[cell];
+  const auto& corners = domain.cell_points[cell];
+  Gradient<T> out{};
+  if (discretization_.is_flat(cell)) return out;
+  for (std::size_t corner = 0; corner < 4; ++corner) {
+    const PointSums& sums = points_[corners[corner]];
+    const PointMoments& moments = discretization_.point_moments(corners[corner]);
+    const Real inverse_weight = 1 / (moments.count + dot(moments.lambda, moments.first));
+    // Over a tetrahedron the surface integral of values linear on its faces is that of the linear interpolant, whose
+    // gradient is a sum over corners of value times the inward area of the opposite face over 3 V.
+    const Vec3& a = domain.points[corners[(corner + 1) % 4]];
+    const Vec3& b = domain.points[corners[(corner + 2) % 4]];
+    const Vec3& c = domain.points[corners[(corner + 3) % 4]];
+    const Vec3 area = cross(b - a, c - a);
+    const Vec3 slope = (1 / dot(domain.points[corners[corner]] - a, area)) * area;
     for (int i = 0; i < 5; ++i) {
-      const T bx = right.along[0][i] - offset.x * w[i], by = right.along[1][i] - offset.y * w[i],
-              bz = right.along[2][i] - offset.z * w[i];
-      const Vec3Of<T> g{a.xx * bx + a.xy * by + a.xz * bz, a.xy * bx + a.yy * by + a.yz * bz,
-                        a.xz * bx + a.yz * by + a.zz * bz};
-      T factor = T(1);
-      if (limiter != LimiterKind::none) {
-        const T up = maximum[i] - w[i], down = minimum[i] - w[i];
-        const Real scaled_epsilon2 = i == 4 ? epsilon2 / (gamma * gamma) : epsilon2;
-        for (int corner = 0; corner < 4; ++corner) {
-          // The face opposite a corner lies a third of the arm beyond the centroid.
-          const T delta = (1.0 / 3) * dot(arm[corner], g);
-          const T& room = delta > T(0) ? up : down;
-          const T phi = limiter == LimiterKind::venkatakrishnan
-                            ? venkatakrishnan(delta, room, scaled_epsilon2)
-                            : barth_jespersen(delta, room);
-          factor = phi < factor ? phi : factor;
-        }
-      }
-      for (int axis = 0; axis < 3; ++axis) gradient.along[axis][i] = factor * g[axis];
+      const T value =
+          inverse_weight * (sums.value[i] + moments.lambda.x * sums.moment.along[0][i] +
+                            moments.lambda.y * sums.moment.along[1][i] + moments.lambda.z * sums.moment.along[2][i]);
+      for (int axis = 0; axis < 3; ++axis) out.along[axis][i] += slope[axis] * value;
     }
   }
+  return out;
+}
+
+template <class T>
+template <LimiterKind limiter>
+Primitive<T> Reconstruction<T>::limiter_factors(Index cell, const Arms& arms, const Primitive<T>& w,
+                                                const Gradient<T>& gradient) const {
+  const Subdomain& domain = discretization_.domain();
+  const auto& corners = domain.cell_points[cell];
+  // (K h)^3 with h^3 = 6 V (a cube's corner); scales of density, speed and pressure: 1, 1 and 1/gamma.
+  const Real gamma = discretization_.gamma();
+  const Real epsilon2 = std::pow(discretization_.space().limiter_k, 3) * 6 * domain.volume[cell];
+  const Real scaled[5] = {epsilon2, epsilon2, epsilon2, epsilon2, epsilon2 / (gamma * gamma)};
+  Primitive<T> minimum = points_[corners[0]].minimum, maximum = points_[corners[0]].maximum;
+  for (std::size_t corner = 1; corner < 4; ++corner)
+    for (int i = 0; i < 5; ++i) {
+      const PointSums& sums = points_[corners[corner]];
+      minimum[i] = sums.minimum[i] < minimum[i] ? sums.minimum[i] : minimum[i];
+      maximum[i] = sums.maximum[i] > maximum[i] ? sums.maximum[i] : maximum[i];
+    }
+  Primitive<T> factor{{T(1), T(1), T(1), T(1), T(1)}};
+  for (std::size_t corner = 0; corner < 4; ++corner) {
+    // MLP looks at the corner itself; the others at the face opposite, a third of the arm beyond the centroid.
+    const Vec3 offset = (limiter == LimiterKind::mlp_u2 ? -1.0 : 1.0 / 3) * arms[corner];
+    if constexpr (limiter == LimiterKind::mlp_u2) {
+      minimum = points_[corners[corner]].minimum;
+      maximum = points_[corners[corner]].maximum;
+    }
+    for (int i = 0; i < 5; ++i) {
+      const T delta = offset.x * gradient.along[0][i] + offset.y * gradient.along[1][i] +
+                      offset.z * gradient.along[2][i];
+      const T room = (delta > T(0) ? maximum[i] : minimum[i]) - w[i];
+      T phi;
+      if constexpr (limiter == LimiterKind::barth_jespersen)
+        phi = barth_jespersen(delta, room);
+      else
+        phi = venkatakrishnan(delta, room, scaled[i]);
+      factor[i] = phi < factor[i] ? phi : factor[i];
+    }
+  }
+  return factor;
+}
+
+template <class T>
+template <LimiterKind limiter>
+void Reconstruction<T>::fit_cells(const FlowField<T>& flow) {
+  const Subdomain& domain = discretization_.domain();
+  const bool by_least_squares = discretization_.space().gradient == GradientKind::least_squares;
+  for (Index cell = 0; cell < domain.owned_cells; ++cell) {
+    const Primitive<T>& w = flow[cell];
+    Arms arms;
+    for (std::size_t corner = 0; corner < 4; ++corner)
+      arms[corner] = domain.center[cell] - domain.points[domain.cell_points[cell][corner]];
+    Gradient<T> gradient = by_least_squares ? least_squares(cell, arms, w) : green_gauss(cell);
+    if constexpr (limiter != LimiterKind::none) {
+      Primitive<T> factor;
+      if (frozen_) {
+        for (int i = 0; i < 5; ++i) factor[i] = factors_[cell][i];
+      } else {
+        factor = limiter_factors<limiter>(cell, arms, w, gradient);
+        if (!factors_.empty())
+          for (int i = 0; i < 5; ++i) factors_[cell][i] = static_cast<float>(value_of(factor[i]));
+      }
+      for (int axis = 0; axis < 3; ++axis)
+        for (int i = 0; i < 5; ++i) gradient.along[axis][i] = factor[i] * gradient.along[axis][i];
+    }
+    gradients_[cell] = gradient;
+  }
+}
+
+template <class T>
+std::size_t Reconstruction<T>::bytes() const {
+  return gradients_.bytes() + points_.size() * sizeof(PointSums) + factors_.size() * sizeof(factors_[0]);
 }
 
 template class Reconstruction<Real>;

@@ -1,6 +1,7 @@
 // Cell gradients, limited, and the states they give on faces.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "core/communicator.hpp"
@@ -31,15 +32,17 @@ class Reconstruction {
  public:
   Reconstruction(const Discretization& discretization, const Communicator& comm);
 
-  /// Fills the gradients of owned cells from a flow whose ghosts are current. Two passes: moments and extrema
-  /// of the points, then gradient and limiter of the cells (about 450 flops a cell).
+  /// Fills the gradients of owned cells from a flow whose ghosts are current. Two passes: moments and extrema of the
+  /// points, then gradient and limiter of the cells (about 450 flops a cell).
   void update(const FlowField<T>& flow);
+  /// From now on the limiter's factors stay what they were in the latest update (or are free again).
+  void freeze_limiter(bool frozen) { frozen_ = frozen; }
   /// Brings the gradients of face ghosts up to date.
   void start_exchange() { gradients_.start_exchange(); }
   void finish_exchange() { gradients_.finish_exchange(); }
 
   const Gradient<T>& operator[](Index cell) const { return gradients_[cell]; }
-  std::size_t bytes() const { return gradients_.bytes() + points_.size() * sizeof(PointSums); }
+  std::size_t bytes() const;
   const HaloExchange<Gradient<T>>& halo() const { return gradients_.halo(); }
 
  private:
@@ -49,13 +52,22 @@ class Reconstruction {
     Gradient<T> moment;
     Primitive<T> minimum, maximum;
   };
+  /// Vectors from the corners of a cell to its centroid.
+  using Arms = std::array<Vec3, 4>;
 
   void gather_points(const FlowField<T>& flow);
+  template <LimiterKind limiter>
   void fit_cells(const FlowField<T>& flow);
+  Gradient<T> least_squares(Index cell, const Arms& arms, const Primitive<T>& w) const;
+  Gradient<T> green_gauss(Index cell) const;
+  template <LimiterKind limiter>
+  Primitive<T> limiter_factors(Index cell, const Arms& arms, const Primitive<T>& w, const Gradient<T>& gradient) const;
 
   const Discretization& discretization_;
   CellField<Gradient<T>> gradients_;
-  std::vector<PointSums> points_;  // [owned_points]
+  std::vector<PointSums> points_;       // [owned_points]
+  std::vector<Five<float>> factors_;    // [owned_cells] of the limiter, when the case may freeze it
+  bool frozen_ = false;
 };
 
 }  // namespace alphadot

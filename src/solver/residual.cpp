@@ -70,7 +70,7 @@ void Residual<T>::interior_faces(const FlowField<T>& flow, const Conditions<T>& 
         ++fallback_faces_;
       }
     }
-    const T speed = conditions.grid.normal_speed(center, normal);
+    const T speed = conditions.face_speed(face, center, normal);
     const auto flux = area * numerical_flux(discretization_.flux(), wl, wr, normal, speed);
     residual[left] += flux;
     if (right < domain.owned_cells) residual[right] -= flux;
@@ -87,7 +87,7 @@ void Residual<T>::boundary_faces(const FlowField<T>& flow, const Conditions<T>& 
     const Real area = norm(domain.boundary_normal[i]);
     const Vec3 normal = (1 / area) * domain.boundary_normal[i];
     const Vec3 center = domain.boundary_center[i];
-    const T speed = conditions.grid.normal_speed(center, normal);
+    const T speed = conditions.boundary_speed(i, center, normal);
     const auto inside = face_state(flow, face.cell, center, order);
     residual[face.cell] +=
         area * (is_impermeable(discretization_.kind_of(face))
@@ -101,12 +101,14 @@ void Residual<T>::rotating_axes(const FlowField<T>& flow, const Conditions<T>& c
                                 std::span<Conserved<T>> residual) {
   const Subdomain& domain = discretization_.domain();
   const auto& rotation = conditions.grid.rotation;
+  if (!conditions.turning_source) return;
   if constexpr (std::is_same_v<T, Real>)
     if (dot(rotation, rotation) == 0) return;
   for (Index cell = 0; cell < domain.owned_cells; ++cell) {
     const T mass = domain.volume[cell] * flow[cell][0];
     const auto turn = mass * cross(rotation, velocity(flow[cell]) - conditions.turning_stream);
     for (int i = 0; i < 3; ++i) residual[cell][i + 1] += turn[i];
+    residual[cell][4] += dot(velocity(flow[cell]), turn);  // its work; none while the turning stream is zero
   }
 }
 

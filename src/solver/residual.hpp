@@ -17,12 +17,14 @@ class Residual {
   Residual(const Discretization& discretization, const Communicator& comm);
 
   /// Fills residual[owned_cells] with the net flux out of each cell plus the momentum source of rotating
-  /// axes; brings the ghosts of `flow` up to date. `order` 1 leaves the gradients out.
+  /// axes and its work; brings the ghosts of `flow` up to date. `order` 1 leaves the gradients out.
   void evaluate(FlowField<T>& flow, const Conditions<T>& conditions, int order,
                 std::span<Conserved<T>> residual);
 
   /// Gradients of the latest second-order evaluation.
   const Reconstruction<T>& reconstruction() const { return reconstruction_; }
+  /// Holds the limiter's factors, or lets them go.
+  void freeze_limiter(bool frozen) { reconstruction_.freeze_limiter(frozen); }
   /// Faces on this rank where the latest evaluation fell back to first order to keep density and pressure
   /// positive.
   Index fallback_faces() const { return fallback_faces_; }

@@ -7,28 +7,37 @@ namespace alphadot {
 
 namespace {
 constexpr Real smallest_cfl = 1e-3;
-constexpr Real residual_leap =
-    5;  // a residual that grows by more than this in one iteration rejects the step
-constexpr int iterations_per_jacobian = 3;
+/// A residual that grows by more than this in one iteration rejects the step.
+constexpr Real residual_leap = 5;
+/// Iterations between linearisations: while the flow takes shape, and once it changes little.
+constexpr int early_jacobian_age = 4, late_jacobian_age = 10;
+constexpr Real early_orders = 2;
 }  // namespace
 
 SteadyResult march_to_steady(ImplicitIteration& iteration, const Conditions<Real>& conditions,
                              const SteadySettings& settings, int order,
-                             const std::function<bool(const SteadyProgress&)>& observer) {
-  Real cfl = settings.cfl_start;
+                             const std::function<bool(const SteadyProgress&)>& observer,
+                             const SteadyState& from) {
+  const bool resumed = from.iteration > 0;
+  Real cfl = resumed ? from.cfl : settings.cfl_start;
   iteration.evaluate(conditions, order);
   FlowReport report = iteration.report();
-  const Real first = std::max(report.density_residual, 1e-300);
-  Real previous = first;
-  int since_jacobian = iterations_per_jacobian;
-  int count = 0;
+  const Real first = resumed ? from.first_residual : std::max(report.density_residual, 1e-300);
+  Real previous = resumed ? from.previous_residual : first;
+  int jacobian_age = late_jacobian_age;
+  int count = from.iteration;
   const auto orders = [&] { return std::log10(first / std::max(report.density_residual, 1e-300)); };
+  const auto jacobian_is_due = [&] {
+    return jacobian_age >= (orders() < early_orders ? early_jacobian_age : late_jacobian_age);
+  };
 
+  if (resumed && orders() >= settings.orders) return {RunStatus::converged, count, report, orders()};
   while (count < settings.max_iterations) {
-    if (++since_jacobian >= iterations_per_jacobian) {
+    if (jacobian_is_due()) {
       iteration.linearise(conditions, {.cfl = cfl});
-      since_jacobian = 0;
+      jacobian_age = 0;
     }
+    ++jacobian_age;
     iteration.advance();
     iteration.evaluate(conditions, order);
     report = iteration.report();
@@ -36,7 +45,7 @@ SteadyResult march_to_steady(ImplicitIteration& iteration, const Conditions<Real
     if (!report.physical || report.density_residual > residual_leap * previous) {
       iteration.undo();
       cfl *= 0.1;
-      since_jacobian = iterations_per_jacobian;
+      jacobian_age = late_jacobian_age;
       if (cfl < smallest_cfl) return {RunStatus::diverged, count, report, orders()};
       iteration.evaluate(conditions, order);
       report = iteration.report();
@@ -44,7 +53,10 @@ SteadyResult march_to_steady(ImplicitIteration& iteration, const Conditions<Real
     }
     previous = report.density_residual;
     cfl = std::min(cfl * settings.cfl_growth, settings.cfl_max);
-    const bool go_on = observer({count, cfl, orders(), report});
+    const Real freeze_orders = iteration.discretization().space().freeze_orders;
+    if (freeze_orders > 0 && orders() >= freeze_orders) iteration.freeze_limiter(true);
+    const bool go_on =
+        observer({count, cfl, orders(), report, {count, cfl, first, previous}, jacobian_is_due()});
     if (orders() >= settings.orders) return {RunStatus::converged, count, report, orders()};
     if (!go_on) return {RunStatus::interrupted, count, report, orders()};
   }

@@ -8,12 +8,22 @@
 
 namespace alphadot {
 
+/// What a march needs, besides the flow, to go on exactly as if it had not stopped.
+struct SteadyState {
+  int iteration = 0;
+  Real cfl = 0;
+  Real first_residual = 0, previous_residual = 0;
+};
+
 /// Passed to the observer after every iteration.
 struct SteadyProgress {
   int iteration;
   Real cfl;
   Real orders;  ///< decades that the residual has dropped since the first iteration
   FlowReport report;
+  SteadyState state;
+  /// The next iteration linearises anew, so that `state` and the flow are all that it depends on.
+  bool resumable;
 };
 
 struct SteadyResult {
@@ -26,9 +36,11 @@ struct SteadyResult {
 /// Iterates until the density residual has dropped by `settings.orders` decades, the iterations are used up
 /// (status completed) or the observer returns false (interrupted). The CFL number grows while the residual
 /// behaves and is cut with the step taken back when a state turns unphysical or the residual leaps; below
-/// `smallest_cfl` the run is diverged.
+/// `smallest_cfl` the run is diverged. Starts from the flow in `iteration`, or goes on `from` the state that
+/// belongs to it.
 SteadyResult march_to_steady(ImplicitIteration& iteration, const Conditions<Real>& conditions,
                              const SteadySettings& settings, int order,
-                             const std::function<bool(const SteadyProgress&)>& observer);
+                             const std::function<bool(const SteadyProgress&)>& observer,
+                             const SteadyState& from = {});
 
 }  // namespace alphadot

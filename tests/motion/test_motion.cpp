@@ -152,5 +152,79 @@ TEST(HarmonicMotions, StartFromRest) {
   }
 }
 
+// Every turn's rate is the derivative of its angle, and every travel's that of the axis point; central
+// differences err by step^2 / 6 times the third derivative.
+TEST(EveryMotion, HasRatesThatAreDerivatives) {
+  constexpr Real step = 1e-4;
+  for (const MotionKind kind :
+       {MotionKind::plunge, MotionKind::sway, MotionKind::pitch, MotionKind::yaw, MotionKind::roll,
+        MotionKind::flap, MotionKind::step_alpha, MotionKind::ramp_alpha, MotionKind::step_q}) {
+    MotionSettings settings;
+    settings.kind = kind;
+    settings.amplitude = kind == MotionKind::step_q ? 0.01 : amplitude;
+    settings.reduced_frequency = reduced_frequency;
+    const Motion motion(settings, {.mach = mach, .alpha = 2, .beta = 1, .gamma = 1.4}, length, 40);
+    for (const Real time : {0.3, 1.7, 4.1}) {
+      const Attitude now = motion.at(time);
+      const Vec3 turning = (0.5 / step) * (motion.at(time + step).angle - motion.at(time - step).angle);
+      const Vec3 moving = (0.5 / step) * (motion.travel(time + step) - motion.travel(time - step));
+      for (int d = 0; d < 3; ++d) {
+        EXPECT_NEAR(now.rotation[d], turning[d], 1e-10);
+        EXPECT_NEAR(now.velocity[d], moving[d], 1e-10);
+      }
+      const Vec3 wind = relative_wind(motion, time);
+      EXPECT_NEAR(std::atan2(wind.z, wind.x), now.alpha, rounding);
+      EXPECT_NEAR(std::atan2(-wind.y, std::hypot(wind.x, wind.z)), now.beta, rounding);
+    }
+  }
+}
+
+// Nose to port first: beta grows by the angle (level flight). Starboard wing down first.
+TEST(YawAndRoll, TurnTheWayTheyAreDocumented) {
+  const Motion yaw = motion_of(MotionKind::yaw), roll = motion_of(MotionKind::roll, 10);
+  const Real early = 0.1 * yaw.period();
+  const Real angle = amplitude * degree * std::sin(0.2 * pi);
+  EXPECT_NEAR(yaw.at(early).beta, angle, rounding);
+  EXPECT_NEAR(yaw.driven_angle(yaw.at(early)), angle, rounding);
+  EXPECT_NEAR(roll.at(early).angle.x, -angle, rounding);
+  EXPECT_NEAR(roll.driven_angle(roll.at(early)), angle, rounding);
+  // With the starboard wing down, what blows from below at incidence blows from starboard.
+  EXPECT_GT(roll.at(early).beta, 0);
+}
+
+// The wind along the axes of the body stays as it is, whatever the angle.
+TEST(FlapAndStepQ, HoldTheIncidence) {
+  MotionSettings settings;
+  settings.kind = MotionKind::step_q;
+  settings.amplitude = 0.02;
+  const Motion step(settings, {.mach = mach, .alpha = 3, .beta = 2, .gamma = 1.4}, length);
+  const Motion flap = motion_of(MotionKind::flap, 3, 2);
+  for (const Motion* motion : {&step, &flap})
+    for (int i = 0; i < 16; ++i) {
+      const Vec3 wind = relative_wind(*motion, 0.7 * i);
+      for (int d = 0; d < 3; ++d) EXPECT_NEAR(wind[d], motion->wind()[d], rounding);
+    }
+  // The reduced rate, by definition q length / (2 V).
+  EXPECT_NEAR(step.at(1).rotation.y * length / (2 * mach), 0.02, rounding);
+  EXPECT_NEAR(norm(step.at(0).velocity), 0, rounding);
+}
+
+TEST(StepAndRamp, ReachTheirAmplitude) {
+  MotionSettings settings;
+  settings.kind = MotionKind::step_alpha;
+  settings.amplitude = 1.5;
+  const FreestreamSettings stream{.mach = mach, .alpha = 2, .beta = 0, .gamma = 1.4};
+  const Motion step(settings, stream, length);
+  EXPECT_EQ(step.at(-1e-9).alpha, 2 * degree);
+  EXPECT_NEAR(step.at(0).alpha, 3.5 * degree, rounding);
+  EXPECT_TRUE(step.starts_with_jump());
+  settings.kind = MotionKind::ramp_alpha;
+  const Motion ramp(settings, stream, length, 30);
+  EXPECT_FALSE(ramp.starts_with_jump());
+  EXPECT_NEAR(ramp.at(ramp.time_of(10)).alpha, 2.5 * degree, rounding);
+  EXPECT_NEAR(ramp.at(ramp.time_of(30)).alpha, 3.5 * degree, rounding);
+  EXPECT_NEAR(ramp.at(ramp.time_of(50)).alpha, 3.5 * degree, rounding);
+}
+
 }  // namespace
 }  // namespace alphadot

@@ -87,9 +87,8 @@ TEST_P(Jacobian, HoldsTheDerivativesOfTheResidual) {
   EXPECT_GT(box.comm.sum(checked), 5 * 13 * 3) << "13 cells with two neighbours or more each";
 }
 
-// At a small CFL number the pseudo time term outweighs the rest: its inverse is dtau / V dW/dU, and dtau =
-// cfl V / (sum of wave speeds) makes the product of block and conserved_change the same for every cell but
-// for that sum. Halving the CFL number halves the block.
+// At a small CFL number the diagonal block is the pseudo time term V / dtau dU/dW alone: its inverse halves
+// with the CFL number, and turns the change of U that goes with density alone back into density alone.
 TEST_P(Jacobian, IsDominatedByPseudoTimeAtSmallCfl) {
   BlockMatrix half(box.domain);
   assemble_jacobian(box.discretization, flow, conditions, {.cfl = 2e-7}, matrix);
@@ -98,8 +97,6 @@ TEST_P(Jacobian, IsDominatedByPseudoTimeAtSmallCfl) {
     const Block &a = matrix.inverse_diagonal(row), &b = half.inverse_diagonal(row);
     const Real size = std::abs(*std::max_element(a.begin(), a.end()));
     for (int i = 0; i < 25; ++i) EXPECT_NEAR(a[i], 2 * b[i], 2 * single * size);
-    // dU = scale * conserved_change(dW): the first column of dW/dU turns back the change of a unit of
-    // density.
     Primitive<Real> unit;
     unit[0] = 1;
     const auto du = conserved_change(flow[row], unit);

@@ -1,0 +1,93 @@
+#!/usr/bin/python3
+"""Sweeps: many runs of alphadot over Mach number, angle of attack, method and mesh, and a report on them.
+
+  sweep.py run SWEEP.toml      runs what is not done, here, and ends with the report; resumes what was interrupted
+  sweep.py status SWEEP.toml   shows which runs wait, run, are done, were interrupted, or failed and why
+  sweep.py report SWEEP.toml   writes report.html, and its tables and figures as files, of what is done
+  sweep.py extend SWEEP.toml   adds Mach numbers, or cycles to the motions; `run` then does what is new
+  sweep.py retry SWEEP.toml    takes the failed runs up again
+  sweep.py clean SWEEP.toml    removes the folders of failed and interrupted runs, or of all
+  sweep.py slurm SWEEP.toml    writes the scripts of a Slurm array job, and submits it
+
+A sweep file:
+
+  title = "Basic Finner"
+  case = "derivatives.toml"             # relative to this file, like `folder`
+  folder = "../../runs/finner"          # default: runs/<name of this file>
+  mesh = "coarse"                       # a level, made by the mesh.py beside the case, or a file beside it
+  alpha = 1.5
+  ranks = 2
+
+  [[runs]]                              # lists multiply
+  method = "derivatives"                # or "steady", or a kind of motion
+  mach = [1.58, 2.5]
+
+  [[runs]]
+  label = "long"                        # first word of the names; default: the method
+  method = "plunge"
+  mach = 2.5
+  set."unsteady.cycles" = 2.5           # any key of the case
+
+Exit codes: 0 every run is done, 1 some failed or an error, 2 wrong command line, 3 interrupted with work left.
+Needs Debian's python3-numpy, python3-h5py and python3-matplotlib (hence /usr/bin/python3).
+"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from pathlib import Path
+
+from sweep import commands
+from sweep.lock import Locked
+from sweep.plan import SweepError, read_sweep
+
+
+def parse() -> argparse.Namespace:
+    form = argparse.RawDescriptionHelpFormatter
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=form, usage="sweep.py VERB SWEEP.toml [options]")
+    verbs = parser.add_subparsers(dest="verb", required=True, metavar="VERB", prog="sweep.py")
+
+    def add(name: str, text: str) -> argparse.ArgumentParser:
+        verb = verbs.add_parser(name, help=text, description=text)
+        verb.add_argument("sweep", type=Path, metavar="SWEEP.toml")
+        return verb
+
+    run = add("run", "run what is not done, and report")
+    run.add_argument("--program", metavar="FILE", help="the program (default: $ALPHADOT, build/alphadot, or on the PATH)")
+    run.add_argument("--only", metavar="RUN", help="this run alone, and no report")
+    run.add_argument("--no-report", action="store_true")
+    add("status", "show how far every run is")
+    add("report", "write report.html")
+    extend = add("extend", "add Mach numbers or cycles")
+    extend.add_argument("--mach", type=float, nargs="+", metavar="M", help="Mach numbers to add, for the methods of the sweep")
+    extend.add_argument("--method", nargs="+", help="for these methods only")
+    extend.add_argument("--cycles", type=float, help="cycles of every motion, in all")
+    retry = add("retry", "take failed runs up again")
+    retry.add_argument("--only", metavar="RUN", help="this one alone")
+    clean = add("clean", "remove folders of failed and interrupted runs")
+    clean.add_argument("--all", action="store_true", help="remove those of all runs, and the report")
+    slurm = add("slurm", "write the scripts of a Slurm array job")
+    slurm.add_argument("--program", metavar="FILE", help="the program, on the nodes")
+    slurm.add_argument(
+        "--time", default="01:00:00", help="wall clock of one job; longer runs go on in the next (default: %(default)s)"
+    )
+    slurm.add_argument(
+        "--margin", type=int, default=60, metavar="S", help="seconds before that for a checkpoint (default: %(default)s)"
+    )
+    slurm.add_argument("--partition", help="where to run (default: the cluster's)")
+    slurm.add_argument("--submit", action="store_true", help="submit them as well")
+    return parser.parse_args()
+
+
+def main() -> int:
+    arguments = parse()
+    try:
+        return getattr(commands, arguments.verb)(read_sweep(arguments.sweep), arguments)
+    except (SweepError, Locked, OSError) as error:
+        print(f"sweep.py: {error}", file=sys.stderr)
+        return 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,157 @@
+"""What sweep.py can be asked to do; one function a verb, each giving the exit code."""
+
+from __future__ import annotations
+
+import shutil
+import sys
+from argparse import Namespace
+from contextlib import AbstractContextManager
+
+from sweep import cluster
+from sweep.lock import Locked, locked
+from sweep.meshes import make_mesh
+from sweep.plan import EXTENSIONS, Sweep, SweepError, read_sweep, read_toml
+from sweep.runner import Runner, find_program
+from sweep.state import END, RESULT, Phase, checkpoints, read_state
+from sweep.status import states, status_text
+
+SWEEP_LOCK = "sweep.lock"
+
+
+def exclusive(sweep: Sweep) -> AbstractContextManager[int]:
+    """The lock of the whole sweep."""
+    return locked(sweep.folder / SWEEP_LOCK)
+
+
+def run(sweep: Sweep, arguments: Namespace) -> int:
+    runner = Runner(find_program(arguments.program))
+    runner.listen()
+    if arguments.only:  # one job of many: the run's own lock is enough
+        wanted = sweep.find(arguments.only)
+        state = runner.run(wanted, wanted.name)
+        if state.phase is Phase.INTERRUPTED and not checkpoints(wanted):
+            print(f"{wanted.name}: has no checkpoint to go on from; give it more time")
+            return 1  # or a job that is too short would be queued again and again
+        return exit_code([(wanted, state)])
+    try:
+        with exclusive(sweep):
+            runner.run_all(sweep.runs)
+    except Locked as error:
+        raise SweepError(f"{sweep.file.name} is being run by {error}; see sweep.py status {sweep.file}") from None
+    found = states(sweep)
+    print(f"\n{status_text(sweep)}")
+    if not arguments.no_report and any(state.phase is Phase.DONE for _, state in found):
+        report(sweep, arguments)
+    return exit_code(found)
+
+
+def exit_code(found: list) -> int:
+    phases = {state.phase for _, state in found}
+    return 1 if Phase.FAILED in phases else 0 if phases == {Phase.DONE} else 3
+
+
+def status(sweep: Sweep, arguments: Namespace) -> int:
+    print(status_text(sweep), end="")
+    return 0
+
+
+def report(sweep: Sweep, arguments: Namespace) -> int:
+    try:  # matplotlib takes a second to load, and a cluster's nodes may not have it
+        from sweep.report import write_report
+    except ImportError as error:
+        raise SweepError(f"{error}; run scripts/install.sh, and sweep.py with /usr/bin/python3") from None
+    print(f"report: {write_report(sweep)}")
+    return 0
+
+
+def extend(sweep: Sweep, arguments: Namespace) -> int:
+    if not arguments.mach and not arguments.cycles:
+        raise SweepError("extend needs --mach or --cycles")
+    with exclusive(sweep):
+        file = sweep.folder / EXTENSIONS
+        before = read_toml(file) if file.exists() else {}
+        blocks, cycles = before.get("runs", []), arguments.cycles or before.get("cycles")
+        known = {(run.method, run.mach) for run in sweep.runs}
+        methods = arguments.method or list(dict.fromkeys(run.method for run in sweep.runs))
+        for method in methods if arguments.mach else []:
+            new = [mach for mach in arguments.mach if (method, mach) not in known]
+            if new:
+                blocks.append({"method": method, "mach": new, **others(sweep, method)})
+        lines = ["# Added by sweep.py extend; edit or delete as you like."]
+        lines += [f"cycles = {cycles}"] if cycles else []
+        for block in blocks:
+            lines += ["", "[[runs]]", *(f"{key} = {toml_value(value)}" for key, value in block.items())]
+        old = file.read_text() if file.exists() else None
+        file.write_text("\n".join(lines) + "\n")
+        try:
+            longer = read_sweep(sweep.file)
+        except SweepError:
+            file.write_text(old) if old is not None else file.unlink()
+            raise
+    print(f"{len(longer.runs) - len(sweep.runs)} runs more, in {file}\n\n{status_text(longer)}", end="")
+    return 0
+
+
+def others(sweep: Sweep, method: str) -> dict:
+    """Angles of attack and meshes that a method has in the sweep."""
+    alike = [run for run in sweep.runs if run.method == method]
+    if not alike:
+        return {}
+    meshes = list(dict.fromkeys(run.mesh for run in alike))
+    return {"alpha": list(dict.fromkeys(run.alpha for run in alike))} | ({"mesh": meshes} if any(meshes) else {})
+
+
+def toml_value(value: object) -> str:
+    if isinstance(value, list):
+        return "[" + ", ".join(map(toml_value, value)) + "]"
+    if isinstance(value, dict):
+        return "{ " + ", ".join(f'"{key}" = {toml_value(item)}' for key, item in value.items()) + " }"
+    return f'"{value}"' if isinstance(value, str) else str(value).lower() if isinstance(value, bool) else str(value)
+
+
+def retry(sweep: Sweep, arguments: Namespace) -> int:
+    """What has no end counts as interrupted, and `run` takes it up."""
+    wanted = [sweep.find(arguments.only)] if arguments.only else sweep.runs
+    with exclusive(sweep):
+        failed = [run for run in wanted if read_state(run).phase is Phase.FAILED]
+        for run in failed:
+            for name in (END, RESULT):
+                (run.folder / name).unlink(missing_ok=True)
+    print(f"{len(failed)} to be run again{': ' if failed else ''}{', '.join(run.name for run in failed)}")
+    return 0
+
+
+def clean(sweep: Sweep, arguments: Namespace) -> int:
+    """Removes folders of runs of this sweep, and nothing that it does not know."""
+    with exclusive(sweep):
+        found = states(sweep)
+        running = [run.name for run, state in found if state.phase is Phase.RUNNING]
+        if running:
+            raise SweepError(f"still running: {', '.join(running)}")
+        unwanted = (Phase.FAILED, Phase.INTERRUPTED)
+        removed = [run for run, state in found if run.folder.exists() and (arguments.all or state.phase in unwanted)]
+        for run in removed:
+            shutil.rmtree(run.folder)
+        if arguments.all:
+            for name in ("report", cluster.FOLDER):
+                shutil.rmtree(sweep.folder / name, ignore_errors=True)
+            for name in ("report.html", EXTENSIONS):
+                (sweep.folder / name).unlink(missing_ok=True)
+    print(f"removed {len(removed)} run folders from {sweep.folder}")
+    return 0
+
+
+def slurm(sweep: Sweep, arguments: Namespace) -> int:
+    program = find_program(arguments.program)
+    wanted = [run for run, state in states(sweep) if state.phase in (Phase.WAITING, Phase.INTERRUPTED)]
+    if not wanted:
+        print("nothing to submit: every run is done, running, or failed (see sweep.py retry)")
+        return 0
+    for run in wanted:
+        try:
+            make_mesh(run)
+        except SweepError as error:
+            print(f"{run.name}: {error}", file=sys.stderr)  # its job will fail with this reason; the others go on
+    scripts = cluster.write_scripts(sweep, wanted, program, arguments)
+    print(f"scripts: {', '.join(map(str, scripts))}")
+    return cluster.submit(scripts) if arguments.submit else 0

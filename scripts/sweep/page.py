@@ -1,0 +1,115 @@
+"""The HTML of a report: one file, with its style and pictures inside, for a phone as for a desk."""
+
+from __future__ import annotations
+
+import base64
+import re
+from collections.abc import Sequence
+from html import escape
+
+from sweep.figures import Picture
+from sweep.tables import Table
+
+STYLE = """
+:root { --ink: #1c2733; --soft: #5d6b7a; --line: #dde3ea; --tint: #f4f7fa; --accent: #1f5fa8; --warn: #b3541e; }
+* { box-sizing: border-box; }
+html { -webkit-text-size-adjust: 100%; }
+body { margin: 0; color: var(--ink); background: white; font: 16px/1.5 system-ui, "Segoe UI", "DejaVu Sans", sans-serif; }
+header { background: linear-gradient(120deg, #17395f, #1f5fa8); color: white; padding: 2.2rem 1rem 1.8rem; }
+header > *, main, footer { max-width: 1200px; margin-inline: auto; }
+header h1 { margin: 0 auto 0.2rem; font-size: clamp(1.5rem, 5vw, 2.2rem); line-height: 1.2; }
+header p { margin-block: 0; opacity: 0.85; }
+nav { background: var(--tint); border-bottom: 1px solid var(--line); padding: 0.5rem 1rem; }
+nav div { max-width: 1200px; margin: auto; display: flex; flex-wrap: wrap; gap: 0.2rem 1.1rem; font-size: 0.9rem; }
+a { color: var(--accent); text-decoration: none; }
+a:hover { text-decoration: underline; }
+main { padding: 0.5rem 1rem 2rem; }
+h2 { margin: 2.4rem 0 0.6rem; font-size: 1.35rem; border-bottom: 2px solid var(--line); padding-bottom: 0.25rem; }
+.cards { display: grid; grid-template-columns: repeat(auto-fit, minmax(150px, 1fr)); gap: 0.8rem; margin-top: 1.4rem; }
+.card { border: 1px solid var(--line); border-radius: 10px; padding: 0.7rem 0.9rem; background: var(--tint); }
+.card b { display: block; font-size: 1.45rem; line-height: 1.25; color: var(--accent); font-variant-numeric: tabular-nums; }
+.card span { font-size: 0.84rem; color: var(--soft); line-height: 1.35; display: block; }
+dl { display: grid; grid-template-columns: max-content 1fr; gap: 0.25rem 1.2rem; margin: 0.8rem 0; font-size: 0.94rem; }
+dt { color: var(--soft); } dd { margin: 0; overflow-wrap: anywhere; }
+.box { border-left: 4px solid var(--accent); background: var(--tint); padding: 0.3rem 1rem; border-radius: 0 8px 8px 0; }
+.wide { overflow-x: auto; margin: 0 0 1.3rem; border: 1px solid var(--line); border-radius: 8px; }
+table { border-collapse: collapse; font-size: 0.86rem; font-variant-numeric: tabular-nums; width: 100%; }
+h3 { margin: 1.2rem 0 0.5rem; font-size: 0.98rem; line-height: 1.35; }
+th, td { padding: 0.34rem 0.7rem; text-align: right; white-space: nowrap; border-top: 1px solid var(--line); }
+th { background: var(--tint); color: var(--soft); font-weight: 600; white-space: normal; min-width: 4.4rem; }
+th { vertical-align: bottom; }
+td.text, th.text { text-align: left; } td.text.long { white-space: normal; min-width: 14rem; }
+th:first-child, td:first-child { position: sticky; left: 0; } td:first-child { background: white; }
+td.error { color: var(--warn); background: #fdf7f2; } th.error { background: #faf0e7; }
+tbody tr:hover td { background: #eef4fb; }
+.grid { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 345px), 1fr)); gap: 1rem; }
+.grid.broad { grid-template-columns: repeat(auto-fit, minmax(min(100%, 540px), 1fr)); }
+figure { margin: 0; border: 1px solid var(--line); border-radius: 8px; padding: 0.5rem; background: white; }
+figure img { width: 100%; height: auto; display: block; }
+figcaption { font-size: 0.84rem; color: var(--soft); padding: 0.3rem 0.3rem 0; } figcaption b { color: var(--ink); }
+.note { color: var(--soft); font-size: 0.92rem; } .bad { color: var(--warn); }
+footer { padding: 1rem; color: var(--soft); font-size: 0.85rem; border-top: 1px solid var(--line); }
+@media (max-width: 640px) {
+  dl { grid-template-columns: 1fr; gap: 0; } dd { margin-bottom: 0.5rem; }
+  .cards { grid-template-columns: 1fr 1fr; } .card b { font-size: 1.2rem; }
+  table { font-size: 0.8rem; } th, td { padding: 0.3rem 0.5rem; }
+  th:first-child, td:first-child { max-width: 9.5rem; white-space: normal; overflow-wrap: anywhere; }
+  header { padding-top: 1.4rem; } h2 { margin-top: 1.8rem; }
+}
+@media print { nav { display: none; } figure, table { break-inside: avoid; } }
+"""
+
+TYPES = {".svg": "image/svg+xml", ".png": "image/png"}
+
+
+def picture(item: Picture) -> str:
+    data = base64.b64encode(item.file.read_bytes()).decode()
+    caption = f" — {escape(item.caption)}" if item.caption else ""
+    image = f'<img alt="{escape(item.title)}" src="data:{TYPES[item.file.suffix]};base64,{data}">'
+    return f"<figure>{image}<figcaption><b>{escape(item.title)}</b>{caption}</figcaption></figure>"
+
+
+def grid(items: Sequence[Picture], broad: bool = False) -> str:
+    """Pictures side by side, as many as there is room for."""
+    return f'<div class="grid{" broad" if broad else ""}">{"".join(map(picture, items))}</div>' if items else ""
+
+
+def table(item: Table) -> str:
+    def cell(tag: str, index: int, text: str) -> str:
+        kinds = ["text"] if item.formats[index] == "" else []
+        kinds += ["long"] if tag == "td" and len(text) > 40 else []
+        kinds += ["error"] if index in item.marked else []
+        names = f' class="{" ".join(kinds)}"' if kinds else ""
+        return f"<{tag}{names}>{escape(text)}</{tag}>"
+
+    head = "".join(cell("th", index, text) for index, text in enumerate(item.columns))
+    rows = ("".join(cell("td", index, text) for index, text in enumerate(item.shown(row))) for row in item.rows)
+    body = "".join(f"<tr>{row}</tr>" for row in rows)
+    return (
+        f'<h3>{escape(item.caption)}</h3><div class="wide"><table>'
+        f"<thead><tr>{head}</tr></thead><tbody>{body}</tbody></table></div>"
+    )
+
+
+def terms(pairs: Sequence[tuple[str, str]]) -> str:
+    return f"<dl>{''.join(f'<dt>{escape(name)}</dt><dd>{escape(text)}</dd>' for name, text in pairs)}</dl>"
+
+
+def cards(pairs: Sequence[tuple[str, str]]) -> str:
+    """Figures that a reader should see first."""
+    shown = (f'<div class="card"><b>{escape(value)}</b><span>{escape(text)}</span></div>' for value, text in pairs)
+    return f'<div class="cards">{"".join(shown)}</div>'
+
+
+def page(title: str, subtitle: str, top: str, sections: Sequence[tuple[str, str]]) -> str:
+    """The whole page; sections are (heading, HTML), and the empty ones are left out."""
+    shown = [(heading, re.sub(r"\W+", "-", heading.lower()), body) for heading, body in sections if body]
+    links = "".join(f'<a href="#{anchor}">{escape(heading)}</a>' for heading, anchor, _ in shown)
+    bodies = "".join(f'<section id="{anchor}"><h2>{escape(heading)}</h2>{body}</section>' for heading, anchor, body in shown)
+    return (
+        '<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8">'
+        '<meta name="viewport" content="width=device-width, initial-scale=1">'
+        f"<title>{escape(title)}</title><style>{STYLE}</style></head><body>"
+        f"<header><h1>{escape(title)}</h1><p>{escape(subtitle)}</p></header><nav><div>{links}</div></nav>"
+        f"<main>{top}{bodies}</main><footer>Written by sweep.py report.</footer></body></html>\n"
+    )

@@ -1,0 +1,170 @@
+"""The report on a sweep: report.html, and its tables and figures as files in report/."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import time
+from html import escape
+from pathlib import Path
+
+import matplotlib.pyplot as plt
+
+from sweep import figures, page, surface, tables
+from sweep.plan import Sweep, SweepError
+from sweep.results import Results, finite, relative
+from sweep.text import duration
+from table_one import FREE_FLIGHT_CENTER, SZNAJDER_CENTER
+
+
+def write_report(sweep: Sweep) -> Path:
+    """Writes report.html of what is done. Raises SweepError when nothing is."""
+    results = Results.of(sweep)
+    if not results.entries:
+        raise SweepError(f"no run in {sweep.folder} is done: there is nothing to report; see sweep.py status")
+    folder = sweep.folder / "report"
+    shutil.rmtree(folder, ignore_errors=True)  # a figure of an older report would be mistaken for one of this
+    folder.mkdir(parents=True)
+    with plt.rc_context(figures.STYLE):
+        sections = [
+            ("Beside the paper", beside_the_paper(results, folder)),
+            ("Against Mach number", against_mach(results, folder)),
+            ("Loops", loops(results, folder)),
+            ("Derivatives", derivatives(results, folder)),
+            ("Surface pressure", page.grid(surface.pressure_pictures(results, folder), broad=True)),
+            ("Convergence", page.grid(figures.convergence_figures(results, folder))),
+            ("Meshes", page.grid(surface.mesh_pictures(results, folder))),
+            ("Cost", write(tables.cost_table(results), folder)),
+            ("Not done", unfinished(results)),
+            ("Provenance", provenance(results)),
+        ]
+    done, every = len(results.entries), len(sweep.runs)
+    subtitle = f"{done} of {every} runs done · {time.strftime('%d %B %Y, %H:%M')}"
+    top = page.cards(headline(results)) + warnings(results) + conventions(results)
+    file = sweep.folder / "report.html"
+    temporary = file.with_suffix(".tmp")
+    temporary.write_text(page.page(sweep.title, subtitle, top, sections))
+    os.replace(temporary, file)
+    return file
+
+
+def write(table: tables.Table, folder: Path) -> str:
+    """The table for the page, and as a file."""
+    (folder / f"{table.name}.csv").write_text(table.csv())
+    return page.table(table) if table.rows else ""
+
+
+def headline(results: Results) -> list[tuple[str, str]]:
+    """The figures that a reader should see first."""
+    out = []
+    if results.beside_paper:
+        paper, center = results.published.paper, results.center
+        pairs = [
+            (entry.here.about(center), {k: float(v) for k, v in paper[entry.mach].items()}) for entry in results.beside_paper
+        ]
+        static = max(abs(relative(here.Cm_alpha, row["static_field"])) for here, row in pairs)
+        out.append((f"{static:.1f} %", f"largest difference of Cm_alpha from the paper, about the fitted centre {center:.2f} d"))
+        acceleration = max(abs(here.Cm_alphadot - row["acceleration_field"]) for here, row in pairs)
+        out.append((f"{acceleration:.1f} per rad", "largest difference of Cm_alphadot from the paper, a prediction"))
+        damping = [abs(relative(here.Cm_q, row["damping_field"])) for here, row in pairs if finite(here.Cm_q)]
+        if damping:
+            out.append((f"{max(damping):.1f} %", "largest difference of Cm_q from the paper, a prediction"))
+    wall = sum(entry.result["performance"]["wall_s"] or 0 for entry in results.entries)
+    out.append((duration(wall), f"of wall clock for {len(results.entries)} runs on {results.entries[0].result['ranks']} ranks"))
+    return out
+
+
+def warnings(results: Results) -> str:
+    """Runs whose numbers are to be read with care."""
+    loose = [entry for entry in results.entries if not entry.converged]
+    lines = [f"<li>{escape(entry.run.name)}: {escape(entry.state.detail)}</li>" for entry in loose]
+    return f'<p class="bad">Not converged to the tolerance asked for:</p><ul class="bad">{"".join(lines)}</ul>' if lines else ""
+
+
+def conventions(results: Results) -> str:
+    """What every number on the page refers to."""
+    reference = results.entries[0].result["reference"]
+    center = ", ".join(f"{x:g}" for x in reference["moment_center"])
+    rates = "Cm_alphadot = dCm / d(alphadot d/2V), Cm_q = dCm / d(q d/2V)"
+    size = f"Length {reference['length']:g}, area {reference['area']:.6g}"
+    pairs = [
+        ("Units", f"Derivatives per radian; rates times {reference['rate']}: {rates}."),
+        ("Reference", f"{size}, of the whole configuration ({reference['model']} model)."),
+        ("Axes", f"{reference['axes']}. CA aft, CN up, Cm nose up."),
+        ("Moment centre", f"Computed about ({center}), on the axis from the nose; moved to other centres by moment transfer."),
+    ]
+    if results.center:
+        pairs.append(
+            (
+                "Fitted centre",
+                f"The paper does not state its centre. x_ref = {results.center:.3f} d is one least-squares fit to its static "
+                "values. Its acceleration and damping values are not in the fit: about x_ref ours are predictions of them. "
+                f"Free-flight and ARL values are about {FREE_FLIGHT_CENTER} d.",
+            )
+        )
+    return f'<section class="box">{page.terms(pairs)}</section>'
+
+
+def beside_the_paper(results: Results, folder: Path) -> str:
+    if not results.beside_paper:
+        return ""
+    note = (
+        '<p class="note">Table I of the paper (Euler, harmonic plunge and pitch at k = 0.01, α = 1.5°), and its tunnel experiment. '
+        f"Columns “{FREE_FLIGHT_CENTER} d” and “{results.center:.2f} d” are ours about these centres, in diameters from the nose. "
+        "Cm_alphadot is a small difference of large terms and changes sign: there the difference counts, not the ratio.</p>"
+    )
+    return note + "".join(write(table, folder) for table in tables.table_one_tables(results))
+
+
+def against_mach(results: Results, folder: Path) -> str:
+    drawn = page.grid(figures.mach_figures(results, folder))
+    note = "Bars are the uncertainty that the program gives."
+    if results.published:
+        note += " Moments: solid lines are about the centre fitted to the paper's static values, dashed ones about "
+        note += f"{FREE_FLIGHT_CENTER} d, dotted ones about {SZNAJDER_CENTER} d."
+    return f'{drawn}<p class="note">{note}</p>' if drawn else ""
+
+
+def loops(results: Results, folder: Path) -> str:
+    drawn = page.grid(figures.loop_figures(results, folder), broad=True)
+    note = "The paper's Fig. 4. The area of the loop is π k α<sub>m</sub>² Cm_alphadot: too slender to be seen beside the static part."
+    return f'{drawn}<p class="note">{note}</p>' if drawn else ""
+
+
+def derivatives(results: Results, folder: Path) -> str:
+    return "".join(write(table, folder) for table in (tables.derivative_table(results), tables.force_table(results)))
+
+
+def unfinished(results: Results) -> str:
+    rows = [[run.name, state.phase.value, state.detail] for run, state in results.unfinished]
+    return (
+        page.table(
+            tables.Table("unfinished", "Runs without a result", ["run", "state", "reason or progress"], rows, ["", "", ""])
+        )
+        if rows
+        else ""
+    )
+
+
+def provenance(results: Results) -> str:
+    """What was used; values that differ between runs are all listed."""
+
+    def distinct(values: list[str]) -> str:
+        return "; ".join(dict.fromkeys(values))
+
+    source = [entry.result["provenance"] for entry in results.entries]
+    keys = ("version", "commit", "compiler", "flags", "build_type", "mpi", "hdf5", "cpu", "host")
+    pairs = [(key.replace("_", " "), distinct([str(item.get(key, "")) for item in source])) for key in keys]
+    dates = sorted(str(item.get("date", "")) for item in source)
+    pairs.append(("runs", f"{dates[0]} to {dates[-1]}"))
+    pairs.append(
+        (
+            "meshes",
+            distinct(
+                [f"{Path(entry.result['mesh']['file']).name}, hash {entry.result['mesh']['hash']}" for entry in results.entries]
+            ),
+        )
+    )
+    pairs.append(("cases", distinct([entry.run.case.name for entry in results.entries])))
+    pairs.append(("sweep file", results.sweep.file.name))
+    return page.terms(pairs)

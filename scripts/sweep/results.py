@@ -1,0 +1,142 @@
+"""What the runs of a sweep have found, and the published values beside it."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+import table_one
+from sweep.plan import Run, Sweep
+from sweep.state import RESULT, Phase, State, read_json
+from sweep.status import states
+from table_one import Derivatives, Row, column, derivatives_of, fitted_center
+
+
+@dataclass(frozen=True)
+class Entry:
+    """A run that is done."""
+
+    run: Run
+    state: State
+    result: dict
+
+    @property
+    def mach(self) -> float:
+        return self.result["freestream"]["mach"]
+
+    @property
+    def has_derivatives(self) -> bool:
+        return "Cm_alphadot" in self.result["derivatives"]
+
+    @property
+    def converged(self) -> bool:
+        """False when a steady march ran out of iterations."""
+        return self.run.is_motion or self.result["status"] == "converged"
+
+    @cached_property
+    def here(self) -> Derivatives:
+        return derivatives_of(self.result)
+
+    @property
+    def series(self) -> tuple[str, str, float]:
+        """What it has in common with those that make a line over Mach number with it."""
+        return (self.run.label, self.run.mesh, self.run.alpha)
+
+    def uncertainty(self, name: str, center: float) -> float:
+        """Bound on the uncertainty of a derivative about another centre: that of the moment and of what is moved with it."""
+        own = lambda key: self.result["derivatives"].get(key, {}).get("uncertainty") or 0.0
+        dx = abs(center - self.here.center)
+        carried = {
+            "Cm_alpha": [(dx, "CN_alpha")],
+            "Cm_alphadot": [(dx, "CN_alphadot")],
+            "CN_q": [(2 * dx, "CN_alpha")],
+            "Cm_q": [(dx, "CN_q"), (2 * dx, "Cm_alpha"), (2 * dx * dx, "CN_alpha")],
+        }
+        return own(name) + sum(factor * own(key) for factor, key in carried.get(name, []))
+
+
+@dataclass(frozen=True)
+class Published:
+    """Published values of the configuration, in d and per rad."""
+
+    paper: dict[float, Row]
+    flight: list[Row]
+    rans: list[Row]
+    sznajder: list[Row]
+
+    @staticmethod
+    def of(sweep: Sweep) -> Published | None:
+        """Those of the Basic Finner, if that is what the sweep is about."""
+        if not sweep.runs or sweep.runs[0].case.parent.resolve() != table_one.REFERENCE.parent.resolve():
+            return None
+        near = lambda row: 1.4 <= float(row["Mach"]) <= 2.8
+        read = table_one.read_table
+        return Published(
+            {float(row["mach"]): row for row in read("paper_table1.csv")},
+            read("finner_free_flight_DREV_TM_9703.csv", lambda row: near(row) and row["flag"] == "ok"),
+            read("finner_rans_ARL_TR_6725.csv", lambda row: near(row) and row["method"] == "planar_pitching"),
+            read("finner_sznajder2025.csv", near),
+        )
+
+
+@dataclass(frozen=True)
+class Results:
+    """All that a report is made of."""
+
+    sweep: Sweep
+    entries: list[Entry]
+    unfinished: list[tuple[Run, State]]
+    published: Published | None
+
+    @staticmethod
+    def of(sweep: Sweep) -> Results:
+        found = states(sweep)
+        entries = [Entry(run, state, read_json(run.folder / RESULT)) for run, state in found if state.phase is Phase.DONE]
+        entries.sort(key=lambda entry: (entry.series, entry.mach))
+        unfinished = [(run, state) for run, state in found if state.phase is not Phase.DONE]
+        return Results(sweep, entries, unfinished, Published.of(sweep))
+
+    @cached_property
+    def with_derivatives(self) -> list[Entry]:
+        return [entry for entry in self.entries if entry.has_derivatives]
+
+    @cached_property
+    def series(self) -> dict[tuple[str, str, float], list[Entry]]:
+        out: dict[tuple[str, str, float], list[Entry]] = {}
+        for entry in self.with_derivatives:
+            out.setdefault(entry.series, []).append(entry)
+        return out
+
+    @cached_property
+    def beside_paper(self) -> list[Entry]:
+        """Runs at a Mach number and angle of attack of the paper's Table I."""
+        if not self.published:
+            return []
+        at_paper = lambda entry: entry.mach in self.published.paper and abs(entry.run.alpha - 1.5) < 1e-9
+        return [entry for entry in self.with_derivatives if at_paper(entry)]
+
+    @cached_property
+    def center(self) -> float | None:
+        """The moment centre that fits the paper's static values best, by the series that has most of its Mach numbers."""
+        if not self.beside_paper:
+            return None
+        # Of series as long as each other: linear solves, then the finest mesh.
+        rank = lambda entries: (len(entries), not entries[0].run.is_motion, entries[0].result["mesh"]["cells"])
+        groups: dict[tuple, list[Entry]] = {}
+        for entry in self.beside_paper:
+            groups.setdefault(entry.series, []).append(entry)
+        best = max(groups.values(), key=rank)
+        static = column([self.published.paper[entry.mach] for entry in best], "static_field")
+        return fitted_center([entry.here for entry in best], static)
+
+
+def finite(value: float | None) -> bool:
+    return value is not None and math.isfinite(value)
+
+
+def relative(value: float, of: float) -> float:
+    """In percent."""
+    return 100 * (value / of - 1) if of else np.nan

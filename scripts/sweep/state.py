@@ -1,0 +1,122 @@
+"""How far a run is, read from the files in its folder."""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+from dataclasses import dataclass
+from enum import Enum
+from pathlib import Path
+
+from sweep.lock import is_locked
+from sweep.plan import Run
+
+LOCK, LOG, RECORD, END, RESULT = "lock", "log.txt", "run.json", "end.json", "result.json"
+GOOD_ENDS = ("converged", "completed")
+TAIL = 20_000  # bytes of a log that are searched for the latest progress
+
+
+class Phase(Enum):
+    WAITING = "waiting"
+    RUNNING = "running"
+    DONE = "done"
+    INTERRUPTED = "interrupted"
+    FAILED = "failed"
+
+
+@dataclass(frozen=True)
+class State:
+    phase: Phase
+    detail: str = ""
+    seconds: float | None = None  # of wall clock, when it is done
+
+
+def read_json(path: Path) -> dict:
+    """Content of a file, or {} where there is none that can be read."""
+    try:
+        content = json.loads(path.read_text())
+        return content if isinstance(content, dict) else {}
+    except (OSError, ValueError):
+        return {}
+
+
+def write_json(path: Path, content: dict) -> None:
+    """Writes through a temporary file: whoever reads sees the old content or the new."""
+    temporary = path.with_name(path.name + ".tmp")
+    temporary.write_text(json.dumps(content, indent=1) + "\n")
+    os.replace(temporary, path)
+
+
+def log_tail(folder: Path) -> str:
+    try:
+        with open(folder / LOG, "rb") as file:
+            file.seek(max(0, os.path.getsize(folder / LOG) - TAIL))
+            return file.read().decode(errors="replace")
+    except OSError:
+        return ""
+
+
+def progress(folder: Path) -> str:
+    """The latest progress of a run: "steady 1e-06.14, left 13 s", "step 12/72, left 3 min 20 s", "linear solves"."""
+    for line in reversed(log_tail(folder).splitlines()):
+        if match := re.match(r"steady +(\d+) +residual (\S+) .* left (.+)", line):
+            return f"steady {match[2]}, {match[3]} left"
+        if match := re.match(r"step +(\d+)/(\d+) .* left (.+)", line):
+            return f"step {match[1]}/{match[2]}, {match[3]} left"
+        if re.match(r"(alpha|beta|p|q|r|alphadot|betadot) +\d+ iterations", line):
+            return "linear solves"
+        if line.startswith("== "):
+            break
+    return "starting"
+
+
+def reason(folder: Path) -> str:
+    """Why a run failed, from its result or the errors in its log."""
+    message = read_json(folder / RESULT).get("message")
+    if message:
+        return message
+    attempt = log_tail(folder).rsplit("\n== ", 1)[-1]
+    errors = [line for line in attempt.splitlines() if re.search(r"\b(error|diverged)\b", line, re.IGNORECASE)]
+    return re.sub(r"^alphadot: (internal )?error: ", "", errors[0]) if errors else ""
+
+
+def without_cycles(identity: dict) -> tuple[dict, float]:
+    """An identity but for the cycles of its motion, and those (0: as the case says)."""
+    settings = dict(identity.get("settings", {}))
+    cycles = settings.pop("unsteady.cycles", 0.0)
+    return identity | {"settings": settings}, cycles
+
+
+def is_extension(record: dict, run: Run) -> bool:
+    """Was the run made with everything the same but fewer cycles? Then it can go on from its last checkpoint."""
+    (old, old_cycles), (wanted, cycles) = without_cycles(record.get("identity", {})), without_cycles(run.identity())
+    return run.is_motion and old == wanted and old_cycles < cycles
+
+
+def checkpoints(run: Run) -> list[Path]:
+    """What a restart of the run can start from."""
+    return sorted(run.folder.glob("checkpoint*")) if run.is_motion else []
+
+
+def read_state(run: Run) -> State:
+    if is_locked(run.folder / LOCK):
+        return State(Phase.RUNNING, progress(run.folder))
+    return state_at_rest(run)
+
+
+def state_at_rest(run: Run) -> State:
+    """The state of a run that nobody works on."""
+    record, end, result = (read_json(run.folder / name) for name in (RECORD, END, RESULT))
+    if not record:
+        return State(Phase.WAITING)
+    if record.get("identity") != run.identity():
+        if is_extension(record, run):
+            return State(Phase.INTERRUPTED, f"to go on to {run.settings['unsteady.cycles']:g} cycles")
+        return State(Phase.WAITING, "settings changed since it ran")
+    status = result.get("status")
+    if status in GOOD_ENDS:
+        return State(Phase.DONE, result.get("message") or status, result.get("performance", {}).get("wall_s"))
+    if status == "interrupted" or end.get("stopped") or not (end or status):
+        return State(Phase.INTERRUPTED, "goes on from its checkpoint" if checkpoints(run) else "starts again")
+    return State(Phase.FAILED, end.get("reason") or reason(run.folder) or status or "no reason found; see its log.txt")

@@ -1,0 +1,169 @@
+"""The tables of a report, each to be shown in the page and written as a CSV file."""
+
+from __future__ import annotations
+
+import csv
+import io
+import math
+from dataclasses import dataclass, field
+
+from sweep.results import Entry, Results, finite, relative
+from sweep.text import duration
+from table_one import FREE_FLIGHT_CENTER
+
+Cell = str | float | int | None
+
+
+@dataclass(frozen=True)
+class Table:
+    """Rows under columns; `formats` says how the numbers of a column are shown, e.g. "+.1f"; the CSV has all digits."""
+
+    name: str
+    caption: str
+    columns: list[str]
+    rows: list[list[Cell]]
+    formats: list[str]
+    marked: set[int] = field(default_factory=set)  # columns of errors, shown apart
+
+    def shown(self, row: list[Cell]) -> list[str]:
+        return [show(cell, form) for cell, form in zip(row, self.formats)]
+
+    def csv(self) -> str:
+        text = io.StringIO()
+        text.write(f"# {self.caption}\n")
+        writer = csv.writer(text, lineterminator="\n")
+        writer.writerows([self.columns, *self.rows])
+        return text.getvalue()
+
+
+def show(cell: Cell, form: str) -> str:
+    if cell is None or (isinstance(cell, float) and not math.isfinite(cell)):
+        return "–"
+    if isinstance(cell, str):
+        return cell
+    return format(cell, form).replace("-", "−")  # a true minus sign
+
+
+def method_label(entry: Entry) -> str:
+    """Short, for the eye: the result's own text names the frequency as well."""
+    return "linear solve" if entry.run.label == "derivatives" else entry.run.label.replace("_", " ")
+
+
+def table_one_tables(results: Results) -> list[Table]:
+    """Table I of the paper, one table a derivative: ours about 5.5 d and about the fitted centre, and how far off we are."""
+    center, paper = results.center, results.published.paper
+    about = f"about {FREE_FLIGHT_CENTER} d and about x_ref = {center:.3f} d, fitted to the paper's five static values"
+    wanted = [
+        ("static", "Cm_alpha", f"Static derivative Cm_alpha, per rad, {about}", "%"),
+        ("acceleration", "Cm_alphadot", f"Acceleration derivative Cm_alphadot, per rad of alphadot d/2V, {about}", "diff"),
+        ("damping", "Cm_q", f"Damping derivative Cm_q, per rad of q d/2V, {about}", "%"),
+    ]
+    tables = []
+    for key, name, caption, kind in wanted:
+        experiment = key == "static"
+        unit = "%" if kind == "%" else "difference"
+        columns = [
+            "Mach",
+            "method",
+            f"here, {FREE_FLIGHT_CENTER} d",
+            f"here, {center:.2f} d",
+            "paper, field velocity",
+            "paper, grid motion",
+        ]
+        columns += ["experiment"] if experiment else []
+        columns += [
+            f"{FREE_FLIGHT_CENTER} d / field, {unit}",
+            f"{center:.2f} d / field, {unit}",
+            f"{center:.2f} d / grid, {unit}",
+        ]
+        columns += [f"{center:.2f} d / experiment, {unit}", "paper / experiment, %"] if experiment else []
+        if kind != "%":
+            columns = [column.replace(" / ", " − ").replace(", difference", "") for column in columns]
+        rows = []
+        for entry in results.beside_paper:
+            row = {k: float(v) for k, v in paper[entry.mach].items()}
+            plain, fitted = (getattr(entry.here.about(x), name) for x in (FREE_FLIGHT_CENTER, center))
+            if not finite(plain):
+                continue
+            compare = relative if kind == "%" else (lambda value, of: value - of)
+            field, grid = row[f"{key}_field"], row[f"{key}_grid"]
+            cells: list[Cell] = [entry.mach, method_label(entry), plain, fitted, field, grid]
+            tunnel = [row["static_experiment"]] if experiment else []
+            errors = [compare(plain, field), compare(fitted, field), compare(fitted, grid)]
+            errors += [compare(fitted, tunnel[0]), relative(field, tunnel[0])] if experiment else []
+            rows.append([*cells, *tunnel, *errors])
+        first = 6 + experiment
+        digits = ".1f" if name == "Cm_q" else ".2f"
+        formats = [".2f", "", *[digits] * (first - 2), *["+.1f" if kind == "%" else "+.2f"] * (len(columns) - first)]
+        tables.append(Table(f"table1_{key}", caption, columns, rows, formats, set(range(first, len(columns)))))
+    return tables
+
+
+def derivative_table(results: Results) -> Table:
+    """Every derivative of the moment and the normal force, about the centre of the run."""
+    names = ["CN_alpha", "Cm_alpha", "CN_alphadot", "Cm_alphadot", "CN_q", "Cm_q"]
+    columns = ["run", "Mach", "alpha, deg", "centre x, d", *(word for name in names for word in (name, "±"))]
+    rows = []
+    for entry in results.with_derivatives:
+        found = entry.result["derivatives"]
+        cells: list[Cell] = [entry.run.name, entry.mach, entry.run.alpha, entry.here.center]
+        for name in names:
+            cells += [found[name]["value"], found[name]["uncertainty"]] if name in found else [None, None]
+        rows.append(cells)
+    formats = ["", ".2f", "g", "g", *[".3f", ".1g"] * 2, *[".2f", ".1g"] * 4]
+    return Table(
+        "derivatives",
+        "Derivatives, per rad; rates times length / 2V; moments about the centre of the run",
+        columns,
+        rows,
+        formats,
+    )
+
+
+def force_table(results: Results) -> Table:
+    """Forces and moment of the steady flow."""
+    columns = ["run", "Mach", "alpha, deg", "CA", "CN", "Cm", "centre x, d"]
+    rows = []
+    for entry in results.entries:
+        forces, reference = entry.result["forces"], entry.result["reference"]
+        center = reference["moment_center"][0] / reference["length"]
+        rows.append([entry.run.name, entry.mach, entry.run.alpha, forces["CA"], forces["CN"], forces["Cm"], center])
+    return Table(
+        "forces",
+        "Steady flow: axial and normal force, pitching moment",
+        columns,
+        rows,
+        ["", ".2f", "g", ".5f", ".5f", ".5f", "g"],
+    )
+
+
+def cost_table(results: Results) -> Table:
+    columns = [
+        "run",
+        "cells",
+        "ranks",
+        "iterations",
+        "wall, s",
+        "processor, s",
+        "µs / cell / iteration",
+        "bytes / cell",
+        "halo wait, %",
+        "end",
+    ]
+    rows: list[list[Cell]] = []
+    for entry in results.entries:
+        cost, mesh = entry.result["performance"], entry.result["mesh"]
+        halo = cost["halo_fraction"]
+        rows.append(
+            [entry.run.name, mesh["cells"], entry.result["ranks"], cost["iterations"], cost["wall_s"], cost["cpu_s"]]
+            + [
+                cost["core_us_per_cell_iteration"],
+                cost["bytes_per_cell"],
+                None if halo is None else 100 * halo,
+                entry.state.detail,
+            ]
+        )
+    total = lambda index: sum(row[index] or 0 for row in rows)
+    rows.append(["all", None, None, total(3), total(4), total(5), None, None, None, f"{duration(total(4))} of wall clock"])
+    formats = ["", ",d", "d", ",d", ".1f", ".1f", ".2f", ".0f", ".1f", ""]
+    return Table("cost", "What the runs took", columns, rows, formats)

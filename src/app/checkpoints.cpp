@@ -1,0 +1,152 @@
+#include "app/checkpoints.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <utility>
+
+#include "app/stop.hpp"
+#include "core/error.hpp"
+#include "core/log.hpp"
+#include "io/case_difference.hpp"
+#include "io/case_file.hpp"
+#include "io/seal.hpp"
+
+namespace alphadot {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr Real seconds_between_looks = 0.5;  // for the stop file
+
+std::string file_name(const std::string& path) {
+  return fs::path(path).filename().string();
+}
+
+/// Throws what keeps a case from going on from a checkpoint.
+void check_belongs(const RestartPoint& point, const Setup& setup) {
+  const auto& info = point.head.history.info;
+  if (info.mesh_hash != setup.mesh.hash)
+    throw InputError(point.path, 0,
+                     fmt::format("belongs to another mesh: its hash is {}, that of {} is {}", info.mesh_hash,
+                                 setup.mesh.file, setup.mesh.hash),
+                     "restart with the mesh that the checkpoint was made with");
+  const Case before = parse_case(info.case_text, point.path);
+  auto problems = contradictions(before, setup.settings, point.head.phase == "motion");
+  if (!problems.empty()) throw InputError(std::move(problems));
+}
+
+}  // namespace
+
+Checkpoints::Checkpoints(const Setup& setup, std::string folder, const Timer& since_start,
+                         const Communicator& comm)
+    : setup_(setup),
+      folder_(std::move(folder)),
+      since_start_(since_start),
+      comm_(comm),
+      file_(setup.domain, comm),
+      last_poll_(since_start.wall()),
+      last_save_(since_start.wall()) {
+  comm_.on_root([&] { in_folder_.emplace(folder_, setup_.settings.checkpoint.keep); });
+}
+
+void Checkpoints::begin_from(const std::string& file) {
+  RestartPoint point;
+  comm_.on_root([&] {
+    if (!file.empty()) {
+      check_seal(file);
+      point.path = file;
+    } else if (!in_folder_->empty()) {
+      std::vector<std::string> rejected;
+      point = in_folder_->newest(rejected);
+      for (const auto& reason : rejected) spdlog::warn("not taken: {}", reason);
+    }
+  });
+  point.path = comm_.broadcast(point.path);
+  if (point.path.empty()) {
+    spdlog::warn("there is no checkpoint in {}: the run starts from the beginning", folder_);
+    return;
+  }
+  comm_.on_all([&] {
+    point.head = read_checkpoint_head(point.path);
+    check_belongs(point, setup_);
+  });
+  const auto info = history_info(setup_.settings, setup_.mesh.hash);
+  if (point.head.history.info.version != info.version)
+    spdlog::warn("{} was written by alphadot {}: the run goes on, but not bit for bit", point.path,
+                 point.head.history.info.version);
+  point.head.history.info = info;
+  spdlog::info("goes on from {}", point.path);
+  restart_ = std::move(point);
+}
+
+void Checkpoints::read(const std::vector<CheckpointField>& fields) const {
+  file_.read_fields(restart_->path, fields);
+}
+
+bool Checkpoints::found_stop_file() {
+  const Real now = since_start_.wall();
+  if (last_look_ >= 0 && now - last_look_ < seconds_between_looks) return false;
+  last_look_ = now;
+  std::error_code error;
+  return fs::remove(fs::path(folder_) / "stop", error);  // so that it does not stop the restarted run
+}
+
+bool Checkpoints::wall_limit_is_near() const {
+  const Real limit = 60 * setup_.settings.checkpoint.wall_limit_minutes;
+  const Real needed = 2 * longest_step_ + 2 * last_cost_ + 0.02 * limit;
+  return limit > 0 && since_start_.wall() + needed > limit;
+}
+
+Wish Checkpoints::poll(bool interval_is_over) {
+  const Real now = since_start_.wall();
+  longest_step_ = std::max(longest_step_, now - last_poll_);
+  last_poll_ = now;
+  const Real interval = 60 * setup_.settings.checkpoint.minutes;
+  const bool by_clock = comm_.is_root() && interval > 0 && now - last_save_ > interval;
+  std::array<Real, 4> asked{interval_is_over || by_clock || take_checkpoint_signal() ? 1.0 : 0.0,
+                            stop_signalled() ? 1.0 : 0.0, comm_.is_root() && found_stop_file() ? 1.0 : 0.0,
+                            comm_.is_root() && wall_limit_is_near() ? 1.0 : 0.0};
+  comm_.max(std::span<Real>(asked));
+  if (asked[0] > 0) wish_.save = true;
+  if (!wish_.stop) {
+    if (asked[1] > 0) stop_reason_ = "stopped by a signal";
+    if (asked[2] > 0) stop_reason_ = "stopped by the file \"stop\" in the run's folder";
+    if (asked[3] > 0)
+      stop_reason_ = fmt::format("stopped before the wall time limit of {} minutes",
+                                 setup_.settings.checkpoint.wall_limit_minutes);
+  }
+  if (asked[1] + asked[2] + asked[3] > 0) wish_ = {true, true};
+  return wish_;
+}
+
+void Checkpoints::save(const CheckpointHead& head, const std::vector<CheckpointField>& fields) {
+  const Timer cost;
+  std::string path;
+  if (comm_.is_root()) path = in_folder_->next_path();
+  path = comm_.broadcast(path);
+  wish_.save = false;
+  try {
+    file_.write(path, head, fields);
+  } catch (const InputError& error) {
+    last_save_ = since_start_.wall();
+    const std::string kept =
+        latest_.empty() ? "there is none from this run yet" : "the last whole one is " + latest_;
+    if (setup_.settings.checkpoint.on_failure == FailureAction::stop) {
+      spdlog::warn("no checkpoint could be written; {}", kept);
+      throw;
+    }
+    spdlog::warn("no checkpoint could be written, the run goes on; {}\n{}", kept, error.what());
+    return;
+  }
+  latest_ = file_name(path);
+  last_cost_ = cost.wall();
+  last_save_ = since_start_.wall();
+  spdlog::info("checkpoint {} ({:.2f} s)", latest_, last_cost_);
+  if (comm_.is_root()) in_folder_->added();
+}
+
+}  // namespace alphadot

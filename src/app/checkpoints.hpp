@@ -1,0 +1,60 @@
+// The checkpoints of one run: when they are due, writing them, and the one a restart begins from.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/setup.hpp"
+#include "core/timer.hpp"
+#include "io/checkpoint.hpp"
+#include "io/checkpoint_folder.hpp"
+
+namespace alphadot {
+
+/// What the run has been asked for and not yet done.
+struct Wish {
+  bool save = false, stop = false;
+};
+
+class Checkpoints {
+ public:
+  /// Collective. `since_start` is the run's clock. The references must outlive the object.
+  Checkpoints(const Setup& setup, std::string folder, const Timer& since_start, const Communicator& comm);
+
+  /// Chooses where the run begins: `file`, or with an empty name the newest whole checkpoint of the folder;
+  /// without any there, the beginning. Collective. Throws InputError on every rank when there is no whole
+  /// one, or when it belongs to another mesh or a contradicting case.
+  void begin_from(const std::string& file);
+  /// The head of the checkpoint that the run begins from, if any.
+  const CheckpointHead* restart() const { return restart_ ? &restart_->head : nullptr; }
+  /// Its states. Collective.
+  void read(const std::vector<CheckpointField>& fields) const;
+
+  /// To be called after each iteration or step: signals, stop file and clock of all ranks, in one all-reduce.
+  /// A wish stays until it is fulfilled: by save(), or by the end.
+  Wish poll(bool interval_is_over);
+  /// Writes a checkpoint and tells of it. Collective. When it cannot be written: InputError on every rank, or
+  /// a warning, as the case says.
+  void save(const CheckpointHead& head, const std::vector<CheckpointField>& fields);
+  /// Why poll() wished for the end.
+  const std::string& stop_reason() const { return stop_reason_; }
+
+ private:
+  bool found_stop_file();
+  bool wall_limit_is_near() const;
+
+  const Setup& setup_;
+  std::string folder_;
+  const Timer& since_start_;
+  const Communicator& comm_;
+  CheckpointFile file_;
+  std::optional<CheckpointFolder> in_folder_;  ///< on the root
+  std::optional<RestartPoint> restart_;
+  Wish wish_;
+  std::string stop_reason_;
+  std::string latest_;  ///< file name of the last whole checkpoint, on the root
+  Real last_poll_, longest_step_ = 0, last_save_, last_cost_ = 0, last_look_ = -1;  ///< seconds
+};
+
+}  // namespace alphadot

@@ -1,0 +1,22 @@
+// From the case to a motion and the time steps that follow it.
+#pragma once
+
+#include "app/setup.hpp"
+#include "motion/motion.hpp"
+#include "solver/dual_time.hpp"
+
+namespace alphadot {
+
+/// The motion of a case; reads its table, if it has one, on the root. Collective. Throws InputError on every
+/// rank.
+Motion make_motion(const Case& settings, const Communicator& comm);
+
+/// How a case is marched in time.
+struct TimePlan {
+  Real time_step;
+  int steps;
+  InnerTolerance tolerance;
+};
+TimePlan time_plan(const Case& settings, const Motion& motion);
+
+}  // namespace alphadot

@@ -1,0 +1,47 @@
+#include "app/stop.hpp"
+
+#include <csignal>
+
+namespace alphadot {
+
+namespace {
+
+volatile std::sig_atomic_t checkpoint_asked = 0, stop_asked = 0;  // all that a handler may touch
+
+extern "C" void ask_for_checkpoint(int) {
+  checkpoint_asked = 1;
+}
+extern "C" void ask_to_stop(int) {
+  stop_asked = 1;
+}
+
+void handle(int signal, void (*handler)(int), int flags) {
+  struct sigaction action {};
+  action.sa_handler = handler;
+  action.sa_flags = flags | SA_RESTART;
+  sigaction(signal, &action, nullptr);
+}
+
+}  // namespace
+
+SignalListener::SignalListener() {
+  handle(SIGUSR1, ask_for_checkpoint, 0);
+  handle(SIGUSR2, ask_to_stop, 0);
+  for (const int signal : {SIGTERM, SIGINT}) handle(signal, ask_to_stop, static_cast<int>(SA_RESETHAND));
+}
+
+SignalListener::~SignalListener() {
+  for (const int signal : {SIGUSR1, SIGUSR2, SIGTERM, SIGINT}) handle(signal, SIG_DFL, 0);
+}
+
+bool take_checkpoint_signal() {
+  const bool asked = checkpoint_asked != 0;
+  if (asked) checkpoint_asked = 0;
+  return asked;
+}
+
+bool stop_signalled() {
+  return stop_asked != 0;
+}
+
+}  // namespace alphadot

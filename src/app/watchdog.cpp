@@ -1,0 +1,54 @@
+#include "app/watchdog.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <utility>
+
+#include "core/run_status.hpp"
+
+namespace alphadot {
+
+Watchdog::Watchdog(Real minutes, std::function<GlobalIndex()> progress, const Communicator& comm)
+    : progress_(std::move(progress)) {
+  if (minutes > 0) thread_ = std::thread([this, minutes, rank = comm.rank()] { watch(minutes, rank); });
+}
+
+Watchdog::~Watchdog() {
+  {
+    const std::scoped_lock lock(mutex_);
+    is_over_ = true;
+  }
+  ended_.notify_one();
+  if (thread_.joinable()) thread_.join();
+}
+
+void Watchdog::watch(Real minutes, int rank) {
+  using Clock = std::chrono::steady_clock;
+  using Seconds = std::chrono::duration<Real>;
+  const Seconds allowed(60 * minutes + std::min(rank, 10));  // a second for mpirun to end the others
+  GlobalIndex last = progress_();
+  auto changed = Clock::now();
+  std::unique_lock lock(mutex_);
+  while (!ended_.wait_for(lock, std::min(Seconds(1), allowed / 4), [this] { return is_over_; })) {
+    const auto now = Clock::now();
+    if (const auto count = progress_(); count != last) {
+      last = count;
+      changed = now;
+    }
+    if (now - changed < allowed) continue;
+    // Not MPI_Abort: the rank's own thread may be inside MPI for ever.
+    fmt::print(
+        stderr,
+        "alphadot: error: no iteration has ended for {} minutes (checkpoint.watchdog_minutes): the run "
+        "hangs and is given up; seen by rank {}\n",
+        minutes, rank);
+    std::fflush(stderr);
+    std::_Exit(exit_code(RunStatus::error));
+  }
+}
+
+}  // namespace alphadot

@@ -1,0 +1,137 @@
+#!/usr/bin/python3
+"""The verbs of the program on a plunge over the wall of a tiny box: what they print, and the files that a run leaves."""
+
+from __future__ import annotations
+
+import csv
+import json
+import math
+import tempfile
+import unittest
+from pathlib import Path
+
+from program import CASE, RANKS, Outcome, box, gmsh_text, run, write_case
+
+PLUNGE = """
+[motion]
+kind = "plunge"
+reduced_frequency = 0.02
+
+[unsteady]
+steps_per_cycle = 16
+"""
+CUBES = 6  # along each edge of the box
+CELLS = 6 * CUBES**3
+STEPS = 24  # of the default one and a half cycles
+
+
+class Commands(unittest.TestCase):
+    folder: Path
+    outcome: Outcome
+
+    @classmethod
+    def setUpClass(cls) -> None:
+        temporary = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(temporary.cleanup)
+        cls.folder = Path(temporary.name)
+        write_case(cls.folder, CASE + PLUNGE, gmsh_text(*box(CUBES)))
+        cls.outcome = run(cls.folder, "run", "case.toml", "--out", "plunge")
+
+    def succeeded(self, *arguments: str) -> str:
+        """What the program prints."""
+        outcome = run(self.folder, *arguments)
+        self.assertEqual(outcome.codes, [0] * RANKS, outcome.err)
+        self.assertEqual(outcome.err, "")
+        return outcome.out
+
+    def result(self) -> dict:
+        return json.loads((self.folder / "plunge" / "result.json").read_text())
+
+    def test_run_succeeds(self) -> None:
+        self.assertEqual(self.outcome.codes, [0] * RANKS, self.outcome.err)
+        self.assertIn("Cm_alphadot", self.outcome.out + self.outcome.err)
+
+    def test_result(self) -> None:
+        result = self.result()
+        self.assertEqual(result["status"], "completed")
+        self.assertEqual(result["ranks"], RANKS)
+        self.assertEqual(result["mesh"]["cells"], CELLS)
+        self.assertLessEqual({"length", "area", "moment_center", "rate", "axes"}, result["reference"].keys())
+        self.assertLessEqual({"CA", "CY", "CN", "Cl", "Cm", "Cn"}, result["forces"].keys())
+        for name in ("CN_alpha", "Cm_alpha", "CN_alphadot", "Cm_alphadot"):
+            self.assertEqual(result["derivatives"][name].keys(), {"value", "uncertainty", "method"})
+        for name in ("wall_s", "cpu_s", "iterations", "core_us_per_cell_iteration", "bytes_per_cell"):
+            self.assertGreater(result["performance"][name], 0)
+        self.assertRegex(result["provenance"]["version"], r"^\d+\.\d+\.\d+")
+
+    def test_derivatives_are_those_of_a_flat_plate(self) -> None:
+        """The wall is the upper side of a plate at Mach 2, whose leading edge is the moment centre.
+
+        Busemann: CN = c1 alpha - c2 alpha^2. Linear theory for slow plunge: Cp = -c1 (alpha - alphadot x / (V beta^2)).
+        """
+        gamma, beta2 = 1.4, 2.0**2 - 1.0
+        c1 = 2.0 / math.sqrt(beta2)
+        c2 = ((gamma + 1.0) * 2.0**4 - 4.0 * beta2) / (2.0 * beta2**2)
+        slope = c1 - 2.0 * c2 * math.radians(1.0)
+        exact = {"CN_alpha": (slope, 0.01), "Cm_alpha": (-slope / 2.0, 0.01), "CN_alphadot": (-c1 / beta2, 0.05)}
+        derivatives = self.result()["derivatives"]
+        for name, (value, tolerance) in exact.items():
+            with self.subTest(name):
+                self.assertAlmostEqual(derivatives[name]["value"], value, delta=tolerance * abs(value))
+
+    def test_history(self) -> None:
+        with open(self.folder / "plunge" / "history.csv") as file:
+            rows = list(csv.DictReader(file))
+        self.assertEqual(len(rows), STEPS)
+        self.assertEqual(float(rows[-1]["step"]), STEPS)
+        for column in ("t_star", "alpha", "total/CN", "total/Cm", "error/Cm", "wall/Cm"):
+            self.assertIn(column, rows[0])
+        quarter = math.degrees(float(rows[3]["alpha"]))  # of a cycle
+        self.assertAlmostEqual(quarter, 1.0 + 1.0, places=9)
+
+    def test_pictures_are_vtkhdf(self) -> None:
+        for name in ("flow.vtkhdf", "surface.vtkhdf"):
+            content = (self.folder / "plunge" / name).read_bytes()
+            self.assertTrue(content.startswith(b"\x89HDF"))
+            self.assertIn(b"UnstructuredGrid", content)
+
+    def test_resolved_case_gives_the_same_run(self) -> None:
+        self.succeeded("run", "plunge/case.toml", "--out", "again", "--quiet")
+        first, again = (
+            json.loads((self.folder / name / "result.json").read_text())["derivatives"]["Cm_alphadot"]["value"]
+            for name in ("plunge", "again")
+        )
+        self.assertAlmostEqual(first, again, delta=1e-9)
+
+    def test_derive(self) -> None:
+        self.assertIn("Cm_alphadot", self.succeeded("derive", "plunge/history.h5"))
+
+    def test_derive_about_another_center(self) -> None:
+        derivatives = {name: entry["value"] for name, entry in self.result()["derivatives"].items()}
+        moved = derivatives["Cm_alpha"] + 0.25 * derivatives["CN_alpha"]
+        table = self.succeeded("derive", "plunge/history.h5", "--center", "0.25")
+        (line,) = (line for line in table.splitlines() if line.split()[:1] == ["Cm_alpha"])
+        self.assertAlmostEqual(float(line.split()[1]), moved, delta=1e-3)
+
+    def test_info(self) -> None:
+        self.assertIn(f"{CELLS} tetrahedra", self.succeeded("info", "box.msh"))
+        self.assertIn(f"{STEPS} steps", self.succeeded("info", "plunge/history.h5"))
+        self.assertIn('"status": "completed"', self.succeeded("info", "plunge/result.json"))
+
+    def test_check(self) -> None:
+        self.assertIn(f"{CELLS} cells", self.succeeded("check", "case.toml"))
+
+    def test_keys(self) -> None:
+        self.assertIn("reduced_frequency", self.succeeded("keys"))
+
+    def test_help_names_the_verbs(self) -> None:
+        text = self.succeeded("--help")
+        for verb in ("run", "check", "derive", "info"):
+            self.assertRegex(text, rf"\n  {verb} ")
+
+    def test_version(self) -> None:
+        self.assertRegex(self.succeeded("--version"), r"^alphadot \d+\.\d+\.\d+")
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,54 @@
+#!/usr/bin/python3
+"""Steady flow over the Basic Finner on a small mesh: symmetry, and independence of the number of ranks.
+
+Arguments: the half model mesh, and those of unittest.
+"""
+
+from __future__ import annotations
+
+import json
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+from program import run
+
+CASE = Path(__file__).resolve().parents[2] / "cases" / "basic_finner" / "derivatives.toml"
+
+
+def steady_forces(mesh: Path, ranks: int, alpha: float) -> dict[str, float]:
+    """Converged coefficients of the whole configuration at Mach 2.5."""
+    overrides = []
+    for setting in (f"mesh.file={mesh}", f"freestream.alpha={alpha}", "output.flow=false", "output.surface=false"):
+        overrides += ["--set", setting]
+    with tempfile.TemporaryDirectory() as folder:
+        outcome = run(Path(folder), "run", CASE, "--out", "run", "--quiet", *overrides, ranks=ranks)
+        if outcome.codes != [0] * ranks:
+            raise AssertionError(outcome.err)
+        result = json.loads((Path(folder) / "run" / "result.json").read_text())
+    assert result["status"] == "converged", result["message"]
+    return {name: result["forces"][name] for name in ("CA", "CN", "Cm")}
+
+
+class Finner(unittest.TestCase):
+    mesh: Path
+
+    def test_no_normal_force_and_no_moment_at_zero_incidence(self) -> None:
+        forces = steady_forces(self.mesh, 2, 0.0)
+        self.assertGreater(forces["CA"], 0.05)
+        self.assertLess(abs(forces["CN"]), 1e-6)
+        self.assertLess(abs(forces["Cm"]), 1e-6)
+
+    def test_same_at_any_number_of_ranks(self) -> None:
+        alone = steady_forces(self.mesh, 1, 1.5)
+        for ranks in (2, 3, 4):
+            together = steady_forces(self.mesh, ranks, 1.5)
+            for name, value in alone.items():
+                with self.subTest(ranks=ranks, name=name):
+                    self.assertAlmostEqual(together[name], value, delta=1e-6 * abs(value))
+
+
+if __name__ == "__main__":
+    Finner.mesh = Path(sys.argv.pop(1)).resolve()
+    unittest.main()

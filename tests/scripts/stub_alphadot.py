@@ -1,0 +1,75 @@
+#!/usr/bin/python3
+"""Stands in for `mpirun -n N alphadot VERB CASE --set KEY=VALUE ... --out DIR [--restart]`.
+
+Does as the title of its case says: "good" writes a result; "bad" fails with a message; "slow" shows progress and waits until it
+is told to stop, writes a checkpoint, and is done when it is restarted. Notes every call in calls.txt of its folder.
+"""
+
+from __future__ import annotations
+
+import json
+import signal
+import sys
+import time
+import tomllib
+from pathlib import Path
+
+arguments = sys.argv[sys.argv.index("-n") + 3 :]
+verb, case = arguments[:2]
+settings = dict(word.split("=", 1) for before, word in zip(arguments, arguments[1:]) if before == "--set")
+folder = Path(arguments[arguments.index("--out") + 1])
+restart = "--restart" in arguments
+title = tomllib.loads(Path(case).read_text()).get("title", "good")
+with open(folder / "calls.txt", "a") as calls:
+    print("restart" if restart else "start", file=calls)
+
+
+def end(status: str, code: int) -> None:
+    mach, alpha = float(settings["freestream.mach"]), float(settings["freestream.alpha"])
+    method = "linear solve, k -> 0" if verb == "derivatives" else "harmonic fit"
+    names = {
+        "CN_alpha": 24 / mach,
+        "Cm_alpha": -60 / mach,
+        "CN_alphadot": 25.0,
+        "Cm_alphadot": -20.0,
+        "CN_q": 150 / mach,
+        "Cm_q": -700 / mach,
+    }
+    result = {
+        "status": status,
+        "message": "",
+        "title": title,
+        "ranks": int(sys.argv[sys.argv.index("-n") + 1]),
+        "mesh": {"file": settings.get("mesh.file", "x.msh"), "cells": 1000, "points": 300, "hash": "0123456789abcdef"},
+        "reference": {
+            "length": 1.0, "area": 0.785, "moment_center": [5.5, 0, 0], "model": "half", "rate": "length / (2 V)", "axes": "body"
+        },
+        "freestream": {"mach": mach, "alpha": alpha, "beta": 0.0, "gamma": 1.4},
+        "forces": {"CA": 0.1, "CN": 0.2, "Cm": -0.4, "components": {"body": {}}, "excluded": ["base"]},
+        "derivatives": {name: {"value": value, "uncertainty": 0.1, "method": method} for name, value in names.items()},
+        "performance": {
+            "wall_s": 10.0, "cpu_s": 19.0, "iterations": 60, "halo_fraction": None,
+            "core_us_per_cell_iteration": 3.0, "bytes_per_cell": 1100.0,
+        },
+        "provenance": {"version": "0.1.0", "commit": "abc", "date": "2025-01-01T00:00:00Z"},
+    }  # fmt: skip
+    (folder / "result.json").write_text(json.dumps(result))
+    sys.exit(code)
+
+
+def stop(*_: object) -> None:
+    (folder / "checkpoint_000001.vtkhdf").touch()
+    end("interrupted", 3)
+
+
+if title == "bad":
+    print("alphadot: error: bad.toml:2: no such mesh", file=sys.stderr)
+    sys.exit(1)
+if title == "slow" and not restart:
+    signal.signal(signal.SIGUSR2, stop)
+    print("step    3/10  alpha +1.5  inner   4 (1e-3)  CN +0.2  Cm -0.4 +- 1e-6  left 7 s", file=sys.stderr, flush=True)
+    (folder / "started").touch()
+    time.sleep(30)
+    sys.exit("nobody stopped the stub")
+print("steady    60  residual 1e-10.10  CFL 1e+06  CN +0.2  CA 0.1  Cm -0.4  left 0 s", file=sys.stderr)
+end("converged" if verb == "derivatives" else "completed", 0)

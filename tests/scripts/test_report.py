@@ -1,0 +1,79 @@
+#!/usr/bin/python3
+"""The report: one file that refers to nothing outside, with the numbers beside what they refer to."""
+
+from __future__ import annotations
+
+import csv
+import re
+import unittest
+from html.parser import HTMLParser
+
+from workspace import SCRIPTS, Workspace
+
+
+class References(HTMLParser):
+    """Collects what a page would fetch, and checks that its elements are closed."""
+
+    VOID = {"meta", "img", "br", "hr", "link", "input"}
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.outside: list[str] = []
+        self.open: list[str] = []
+
+    def handle_starttag(self, tag: str, attributes: list[tuple[str, str | None]]) -> None:
+        if tag not in self.VOID:
+            self.open.append(tag)
+        for name, value in attributes:
+            if name in ("src", "href", "srcset", "data") and not (value or "").startswith(("data:", "#")):
+                self.outside.append(f"{tag} {name}={value}")
+
+    def handle_endtag(self, tag: str) -> None:
+        assert self.open.pop() == tag, tag
+
+
+class Report(Workspace):
+    def report(self, case: str = "good.toml") -> str:
+        self.write(
+            '[[runs]]\nmach = [1.58, 1.75, 1.89, 2.10, 2.50]\n\n[[runs]]\nlabel = "bad"\ncase = "bad.toml"\nmach = 3\n',
+            f'title = "Try <1>"\ncase = "{case}"\nfolder = "{self.folder}/runs"\nalpha = 1.5\n',
+        )
+        self.sweep("run", code=1)
+        return (self.folder / "runs" / "report.html").read_text()
+
+    def test_page_and_files(self) -> None:
+        """One test, since it takes seconds to make a report."""
+        text = self.report()
+        self.refers_to_nothing_outside(text)
+        self.assertNotIn("Beside the paper", text)  # other configurations have none
+        for words in ("Try &lt;1&gt;", "(5.5, 0, 0)", "length / (2 V)", "5 of 6 runs done", "no such mesh", "width=device-width"):
+            self.assertIn(words, text)
+        with open(self.folder / "runs" / "report" / "derivatives.csv") as file:
+            rows = list(csv.DictReader(line for line in file if not line.startswith("#")))
+        self.assertEqual([float(row["Mach"]) for row in rows], [1.58, 1.75, 1.89, 2.10, 2.50])
+        self.assertAlmostEqual(float(rows[0]["Cm_alpha"]), -60 / 1.58)
+
+    def refers_to_nothing_outside(self, text: str) -> None:
+        references = References()
+        references.feed(text)
+        self.assertEqual(references.outside, [])
+        self.assertEqual(references.open, [])
+        self.assertNotRegex(re.sub(r"data:[^\"]*", "", text), r"https?:|url\(|@import|<script")
+        self.assertIn("data:image/svg+xml;base64,", text)
+
+    def test_basic_finner_stands_beside_the_paper(self) -> None:
+        text = self.report(str(SCRIPTS.parent / "cases" / "basic_finner" / "derivatives.toml"))
+        self.assertIn("Beside the paper", text)
+        with open(self.folder / "runs" / "report" / "table1_static.csv") as file:
+            rows = list(csv.DictReader(line for line in file if not line.startswith("#")))
+        self.assertEqual(float(rows[0]["paper, field velocity"]), -41.0254)
+        here, error = float(rows[0]["here, 5.5 d"]), float(rows[0]["5.5 d / field, %"])
+        self.assertAlmostEqual(error, 100 * (here / -41.0254 - 1))
+
+    def test_nothing_done(self) -> None:
+        self.write("[[runs]]\nmach = 2\n")
+        self.assertIn("nothing to report", self.sweep("report", code=1))
+
+
+if __name__ == "__main__":
+    unittest.main()

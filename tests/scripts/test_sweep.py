@@ -1,0 +1,158 @@
+#!/usr/bin/python3
+"""Running a sweep: what is done is not repeated, what was interrupted goes on, what is broken stops nothing else."""
+
+from __future__ import annotations
+
+import os
+import re
+import signal
+import unittest
+
+from workspace import Workspace
+
+GOOD, BAD, SLOW = "derivatives_m2_a1.5", "bad_m3_a1.5", "plunge_m2_a1.5"
+MIXED = '[[runs]]\nlabel = "bad"\ncase = "bad.toml"\nmach = 3\n\n[[runs]]\nmach = 2\n'
+MOTION = '[[runs]]\nmethod = "plunge"\ncase = "slow.toml"\nmach = 2\n'
+
+
+class Sweeps(Workspace):
+    def phase(self, name: str) -> str:
+        return re.search(rf"^{re.escape(name)} +(\w+)", self.sweep("status"), re.MULTILINE)[1]
+
+    def start_slow(self):
+        """A sweep at work on a run that waits to be stopped."""
+        process = self.start("run", "--no-report")
+        self.wait_for((self.folder / "runs" / SLOW / "started").exists)
+        return process
+
+    def test_broken_case_among_good_ones(self) -> None:
+        self.write(MIXED)
+        self.assertIn("2 waiting", self.sweep("status"))
+        self.sweep("run", "--no-report", code=1)
+        status = self.sweep("status")
+        self.assertRegex(status, rf"{BAD} +failed +bad\.toml:2: no such mesh")
+        self.assertRegex(status, rf"{GOOD} +done +10 s")
+
+    def test_done_and_failed_are_not_repeated(self) -> None:
+        self.write(MIXED)
+        for _ in range(3):
+            self.sweep("run", "--no-report", code=1)
+        self.assertEqual(self.calls(GOOD), ["start"])
+        self.assertEqual(self.calls(BAD), ["start"])
+
+    def test_retry(self) -> None:
+        self.write(MIXED)
+        self.sweep("run", "--no-report", code=1)
+        (self.folder / "bad.toml").write_text('title = "bad" # still\n')
+        self.assertIn(BAD, self.sweep("retry"))
+        self.sweep("run", "--no-report", code=1)
+        self.assertEqual(len(self.calls(BAD)), 2)
+        self.assertEqual(len(self.calls(GOOD)), 1)
+
+    def test_changed_settings_are_run_afresh(self) -> None:
+        self.write("[[runs]]\nmach = 2\n")
+        self.sweep("run", "--no-report")
+        self.write('[[runs]]\nmach = 2\nset."space.order" = 1\n')
+        self.assertIn("settings changed", self.sweep("status"))
+        self.sweep("run", "--no-report")
+        self.assertEqual(self.calls(GOOD), ["start", "start"])
+
+    def test_progress_then_stopped_then_restarted(self) -> None:
+        self.write(MOTION)
+        process = self.start_slow()
+        self.assertRegex(self.sweep("status"), rf"{SLOW} +running +step 3/10, 7 s left")
+        process.send_signal(signal.SIGINT)
+        process.communicate(timeout=20)
+        self.assertEqual(process.returncode, 3)
+        self.assertRegex(self.sweep("status"), rf"{SLOW} +interrupted +goes on from its checkpoint")
+        self.sweep("run", "--no-report")
+        self.assertEqual(self.calls(SLOW), ["start", "restart"])
+        self.assertEqual(self.phase(SLOW), "done")
+
+    def test_started_twice(self) -> None:
+        self.write(MOTION)
+        process = self.start_slow()
+        self.assertIn(f"being run by process {process.pid}", self.sweep("run", code=1))
+        self.assertIn("process", self.sweep("clean", code=1))
+        self.assertEqual(self.calls(SLOW), ["start"])
+        process.send_signal(signal.SIGTERM)
+        process.communicate(timeout=20)
+
+    def test_killed_sweep_leaves_no_stale_lock(self) -> None:
+        """The program outlives its sweep.py, keeps its folder, and the next sweep.py waits for it and goes on."""
+        self.write(MOTION)
+        process = self.start_slow()
+        process.kill()
+        process.communicate()
+        self.assertEqual(self.phase(SLOW), "running")
+        after = self.start("run", "--no-report")
+        waits = after.stdout.readline()
+        self.assertRegex(waits, r"waits for process \d+")
+        self.stub_of(SLOW, signal.SIGUSR2)
+        after.communicate(timeout=20)
+        self.assertEqual(after.returncode, 0)
+        self.assertEqual(self.calls(SLOW), ["start", "restart"])
+
+    def test_killed_altogether_starts_again(self) -> None:
+        self.write(MOTION)
+        process = self.start_slow()
+        process.kill()
+        process.communicate()
+        self.stub_of(SLOW, signal.SIGKILL)
+        self.wait_for(lambda: self.phase(SLOW) == "interrupted")
+        (self.folder / "runs" / SLOW / "checkpoint_000001.vtkhdf").touch()
+        self.sweep("run", "--no-report")
+        self.assertEqual(self.calls(SLOW), ["start", "restart"])
+
+    def stub_of(self, name: str, number: int) -> None:
+        """Sends a signal to the stub that works in the folder of a run."""
+        folder = str(self.folder / "runs" / name)
+        for process in filter(str.isdigit, os.listdir("/proc")):
+            try:
+                with open(f"/proc/{process}/cmdline") as file:
+                    words = file.read().split("\0")
+            except OSError:
+                continue
+            if folder in words:
+                os.kill(int(process), number)
+
+    def test_extend_by_mach(self) -> None:
+        self.write("[[runs]]\nmach = 2\n")
+        self.sweep("run", "--no-report")
+        self.assertIn("1 runs more", self.sweep("extend", "--mach", 2, 3))
+        self.sweep("run", "--no-report")
+        self.assertEqual(self.calls(GOOD), ["start"])
+        self.assertEqual(self.calls("derivatives_m3_a1.5"), ["start"])
+
+    def test_extend_by_cycles(self) -> None:
+        self.write(MOTION.replace("slow", "good"))
+        self.sweep("run", "--no-report")
+        (self.folder / "runs" / SLOW / "checkpoint_000001.vtkhdf").touch()
+        self.assertIn("to go on to 2.5 cycles", self.sweep("extend", "--cycles", 2.5))
+        self.sweep("run", "--no-report")
+        self.assertEqual(self.calls(SLOW), ["start", "restart"])
+
+    def test_clean(self) -> None:
+        self.write(MIXED)
+        self.sweep("run", "--no-report", code=1)
+        self.sweep("clean")
+        self.assertFalse((self.folder / "runs" / BAD).exists())
+        self.assertEqual(self.phase(GOOD), "done")
+        self.sweep("clean", "--all")
+        self.assertEqual(self.phase(GOOD), "waiting")
+
+    def test_slurm_scripts(self) -> None:
+        self.write(MIXED)
+        self.sweep("slurm", "--time", "00:20:00", "--margin", 90)
+        array = (self.folder / "runs" / "slurm" / "array.sbatch").read_text()
+        for line in ("--array=0-1", "--ntasks=2", "--time=00:20:00", "--signal=B:USR2@90", "--requeue"):
+            self.assertIn(f"#SBATCH {line}\n", array)
+        self.assertIn(f"runs=({BAD} {GOOD})", array)
+
+    def test_missing_program_is_named(self) -> None:
+        self.write(MIXED)
+        self.assertIn("/nowhere/alphadot", self.sweep("run", "--program", "/nowhere/alphadot", code=1))
+
+
+if __name__ == "__main__":
+    unittest.main()

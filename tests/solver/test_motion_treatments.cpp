@@ -1,0 +1,178 @@
+// Motions by field velocity and by moving grids. Expectations: a uniform stream solves the equations under
+// every motion of the grid; a field velocity and a rigidly moving grid are the same discrete equations along
+// other axes; geometry of swept volumes.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <tuple>
+
+#include "moving_box.hpp"
+#include "partition/geometry.hpp"
+#include "solver/deformation.hpp"
+
+namespace alphadot {
+namespace {
+
+using namespace testing_support;
+
+constexpr MotionKind all_motions[] = {MotionKind::plunge,     MotionKind::sway,       MotionKind::pitch,
+                                      MotionKind::yaw,        MotionKind::roll,       MotionKind::flap,
+                                      MotionKind::step_alpha, MotionKind::ramp_alpha, MotionKind::step_q};
+
+/// Open all around; the face z_min counts as the body that a deforming grid follows, though nothing is
+/// imposed there but the stream.
+BoxSides open_box_with_body() {
+  BoxSides sides = open_box();
+  sides[4] = BoundaryKind::jet;
+  return sides;
+}
+
+/// A wall to take loads on.
+BoxSides box_with_wall() {
+  BoxSides sides = open_box();
+  sides[4] = BoundaryKind::wall;
+  return sides;
+}
+
+class EveryMotion : public testing::TestWithParam<std::tuple<MotionKind, TreatmentKind>> {};
+INSTANTIATE_TEST_SUITE_P(Treatments, EveryMotion,
+                         testing::Combine(testing::ValuesIn(all_motions), testing::ValuesIn(all_treatments)));
+
+TEST_P(EveryMotion, KeepsTheFreeStream) {
+  const auto [kind, treatment] = GetParam();
+  const Motion motion = box_motion(kind, kind == MotionKind::step_q ? 0.03 : 3);
+  MovingBox box(open_box_with_body(), {}, motion, treatment, 0.15);
+  box.start();
+  for (int i = 0; i < 5; ++i) {
+    const StepReport step = box.advance(4);
+    const Vec3 wind = treatment == TreatmentKind::field_velocity
+                          ? on_turned_axes(motion.wind(), step.attitude.angle)
+                          : motion.wind();
+    EXPECT_LT(box.distance_from(free_stream(wind, gamma_air)), 1e-12);
+  }
+}
+
+/// Largest relative difference of the loads, over some steps from a wavy flow, between a field velocity and a
+/// rigid grid.
+Real difference_of_treatments(MotionKind kind, LimiterKind limiter) {
+  const Motion motion = box_motion(kind);
+  MovingBox still(box_with_wall(), {.limiter = limiter}, motion, TreatmentKind::field_velocity, 0.15);
+  MovingBox moving(box_with_wall(), {.limiter = limiter}, motion, TreatmentKind::rigid_grid, 0.15);
+  Real worst = 0;
+  for (MovingBox* box : {&still, &moving}) {
+    fill(box->iteration.flow(), box->domain, [](const Vec3& x, GlobalIndex) { return wavy_state(x); });
+    box->start();
+  }
+  for (int i = 0; i < 5; ++i) {
+    const Load a = still.advance(80).report.total, b = moving.advance(80).report.total;
+    worst = std::max(worst, relative_difference(a, b));
+  }
+  std::printf("difference %g\n", worst);
+  return worst;
+}
+
+TEST(FieldVelocity, IsARigidGridInTranslation) {
+  EXPECT_LT(difference_of_treatments(MotionKind::plunge, LimiterKind::venkatakrishnan), 1e-10);
+  EXPECT_LT(difference_of_treatments(MotionKind::sway, LimiterKind::venkatakrishnan), 1e-10);
+  EXPECT_LT(difference_of_treatments(MotionKind::step_alpha, LimiterKind::venkatakrishnan), 1e-10);
+}
+
+// A limiter of velocity components depends on the axes they are taken along; without one nothing does.
+TEST(FieldVelocity, IsARigidGridInRotation) {
+  EXPECT_LT(difference_of_treatments(MotionKind::pitch, LimiterKind::none), 1e-8);
+  EXPECT_LT(difference_of_treatments(MotionKind::yaw, LimiterKind::none), 1e-8);
+  EXPECT_LT(difference_of_treatments(MotionKind::roll, LimiterKind::none), 1e-8);
+  EXPECT_LT(difference_of_treatments(MotionKind::flap, LimiterKind::none), 1e-8);
+}
+
+/// Residual of a flow with a uniform velocity taken off.
+std::vector<Conserved<Real>> residual_less(const BoxCase& box, const Vec3& shift,
+                                           const Conditions<Real>& conditions) {
+  FlowField<Real> flow(box.domain, box.comm);
+  fill(flow, box.domain, [&](const Vec3& x, GlobalIndex id) {
+    Primitive<Real> w = rough_state(x, id);
+    for (int i = 0; i < 3; ++i) w[i + 1] -= shift[i];
+    return w;
+  });
+  std::vector<Conserved<Real>> out(box.cells());
+  Residual<Real>(box.discretization, box.comm).evaluate(flow, conditions, 2, out);
+  return out;
+}
+
+// A body in a wind W and a body that moves with -W through still air, rotating steadily at fixed incidence:
+// mass as it is, momentum less W mass, energy less W momentum plus W^2/2 mass, in every cell.
+TEST(GalileanShift, LeavesARotatingBodyAsItIs) {
+  const Communicator comm;
+  const BoxCase box(small_box(), box_with_wall(), {}, comm);
+  const Vec3 wind{1.5, -0.1, 0.2}, rotation{0.2, 0.5, -0.3}, axis{0.4, -0.6, 0.2};
+  const auto in_wind = residual_less(box, {}, steady_conditions(wind, axis, gamma_air, rotation));
+  const auto in_still_air =
+      residual_less(box, wind, {free_stream(Vec3{}, gamma_air), {-wind, rotation, axis}, {}});
+  for (std::size_t cell = 0; cell < in_wind.size(); ++cell) {
+    const auto& a = in_wind[cell];
+    const Vec3 momentum{a[1], a[2], a[3]};
+    const Vec3 shifted = momentum - a[0] * wind;
+    const auto& b = in_still_air[cell];
+    EXPECT_NEAR(b[0], a[0], 1e-12);
+    for (int i = 0; i < 3; ++i) EXPECT_NEAR(b[i + 1], shifted[i], 1e-12);
+    EXPECT_NEAR(b[4], a[4] - dot(wind, momentum) + 0.5 * dot(wind, wind) * a[0], 1e-12);
+  }
+}
+
+TEST(SweptVolume, IsTheChangeOfTheVolumeOfATetrahedron) {
+  const std::array<Vec3, 4> from{{{0, 0, 0}, {1, 0.1, 0}, {0.2, 1, 0.1}, {0.1, 0.3, 0.9}}};
+  const std::array<Vec3, 4> to{{{0.1, -0.2, 0.3}, {1.2, 0.4, 0.1}, {-0.2, 1.3, 0.2}, {0.4, 0.2, 1.4}}};
+  const std::array<GlobalIndex, 4> ids{0, 1, 2, 3};
+  Real sum = 0;
+  for (const auto& face : tetrahedron_faces) {
+    const auto corners = [&](const std::array<Vec3, 4>& x) {
+      return std::array<Vec3, 3>{x[static_cast<std::size_t>(face[0])], x[static_cast<std::size_t>(face[1])],
+                                 x[static_cast<std::size_t>(face[2])]};
+    };
+    sum += swept_volume(corners(from), corners(to));
+  }
+  EXPECT_NEAR(sum, tetrahedron_metrics(to, ids).volume - tetrahedron_metrics(from, ids).volume, 1e-15);
+}
+
+// The body's points go with it, those of the far field stay, and cells keep their orientation.
+TEST(DeformingGrid, FollowsTheBodyAndRestsFarAway) {
+  const Motion motion = box_motion(MotionKind::pitch);
+  MovingBox box(open_box_with_body(), {}, motion, TreatmentKind::deforming_grid, 0.15);
+  const auto rest = box.domain.points;
+  box.start();
+  const StepReport step = box.advance(1);
+  for (const auto& face : box.domain.boundary_faces)
+    for (const Index point : face.points) {
+      const Vec3 moved = box.domain.points[static_cast<std::size_t>(point)],
+                 before = rest[static_cast<std::size_t>(point)];
+      const bool on_body = before.z == 2, on_edge = before.x == -1 || before.x == 1 || before.y == 0 ||
+                                                    before.y == 1.2 || before.z == 3;
+      if (on_body && on_edge) continue;
+      const Vec3 carried = box_axis_point + on_turned_axes(before - box_axis_point, -step.attitude.angle);
+      EXPECT_NEAR(norm(moved - (on_body ? carried : before)), 0, 1e-14);
+    }
+  EXPECT_NO_THROW(box.domain.validate());
+}
+
+// Everything is a function of the level: a march in two parts is the same as in one.
+TEST(Treatments, GoOnAfterARestart) {
+  const Motion motion = box_motion(MotionKind::pitch);
+  for (const TreatmentKind treatment : all_treatments) {
+    MovingBox whole(box_with_wall(), {}, motion, treatment, 0.15),
+        again(box_with_wall(), {}, motion, treatment, 0.15);
+    whole.start();
+    for (int i = 0; i < 3; ++i) whole.advance(6);
+    again.start();
+    std::ranges::copy(whole.march->latest_level(), again.march->latest_level().begin());
+    std::ranges::copy(whole.march->level_before(), again.march->level_before().begin());
+    std::ranges::copy(whole.iteration.flow().values(), again.iteration.flow().values().begin());
+    again.march->restore(whole.march->state());
+    for (int i = 0; i < 2; ++i) {
+      const Load a = whole.advance(6).report.total, b = again.advance(6).report.total;
+      EXPECT_EQ(relative_difference(a, b), 0);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace alphadot
