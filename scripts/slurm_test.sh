@@ -35,7 +35,7 @@ start_node "$folder/node"
 sinfo
 
 step "A sweep whose plunge is longer than the limit of its job, and the same without a limit"
-/usr/bin/python3 cases/basic_finner/mesh.py --size 0.2 --output "$folder/tiny.msh"
+/usr/bin/python3 cases/basic_finner/mesh.py --size 0.13 --output "$folder/tiny.msh"
 cp cases/basic_finner/{derivatives,plunge}.toml "$folder"
 # So many steps that the plunge takes several minutes. Slurm may send its signal up to a minute earlier than it is told to.
 sweep() {
@@ -54,7 +54,7 @@ mach = 2.5
 case = "plunge.toml"
 method = "plunge"
 mach = 2.5
-set."unsteady.steps_per_cycle" = ${STEPS:-720}
+set."unsteady.steps_per_cycle" = ${STEPS:-480}
 END
 }
 sweep limited > "$folder/limited.toml"

@@ -31,7 +31,7 @@ h2 { margin: 2.4rem 0 0.6rem; font-size: 1.35rem; border-bottom: 2px solid var(-
 .card span { font-size: 0.84rem; color: var(--soft); line-height: 1.35; display: block; }
 dl { display: grid; grid-template-columns: max-content 1fr; gap: 0.25rem 1.2rem; margin: 0.8rem 0; font-size: 0.94rem; }
 dt { color: var(--soft); } dd { margin: 0; overflow-wrap: anywhere; }
-.box { border-left: 4px solid var(--accent); background: var(--tint); padding: 0.3rem 1rem; border-radius: 0 8px 8px 0; }
+.box { margin-top: 1.2rem; border-left: 4px solid var(--accent); background: var(--tint); padding: 0.3rem 1rem; border-radius: 0 8px 8px 0; }
 .wide { overflow-x: auto; margin: 0 0 1.3rem; border: 1px solid var(--line); border-radius: 8px; }
 table { border-collapse: collapse; font-size: 0.86rem; font-variant-numeric: tabular-nums; width: 100%; }
 h3 { margin: 1.2rem 0 0.5rem; font-size: 0.98rem; line-height: 1.35; }
@@ -42,8 +42,8 @@ td.text, th.text { text-align: left; } td.text.long { white-space: normal; min-w
 th:first-child, td:first-child { position: sticky; left: 0; } td:first-child { background: white; }
 td.error { color: var(--warn); background: #fdf7f2; } th.error { background: #faf0e7; }
 tbody tr:hover td { background: #eef4fb; }
-.grid { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 345px), 1fr)); gap: 1rem; }
-.grid.broad { grid-template-columns: repeat(auto-fit, minmax(min(100%, 540px), 1fr)); }
+.grid { display: grid; grid-template-columns: repeat(auto-fill, minmax(min(100%, 345px), 1fr)); gap: 1rem; }
+.grid.broad { grid-template-columns: repeat(auto-fill, minmax(min(100%, 540px), 1fr)); }
 figure { margin: 0; border: 1px solid var(--line); border-radius: 8px; padding: 0.5rem; background: white; }
 figure img { width: 100%; height: auto; display: block; }
 figcaption { font-size: 0.84rem; color: var(--soft); padding: 0.3rem 0.3rem 0; } figcaption b { color: var(--ink); }

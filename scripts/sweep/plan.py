@@ -12,6 +12,7 @@ Value = bool | int | float | str | list
 DERIVATIVES, STEADY = "derivatives", "steady"  # methods; any other is a kind of motion
 BLOCK_KEYS = {"label", "case", "mesh", "method", "mach", "alpha", "ranks", "set"}
 SWEEP_KEYS = BLOCK_KEYS - {"label"} | {"title", "folder", "runs"}
+WITHOUT_EFFECT = ("checkpoint", "output")  # tables of the case that change no number
 EXTENSIONS = "extensions.toml"  # in the folder of the sweep: what `extend` has added
 
 
@@ -45,7 +46,11 @@ class Run:
 
     def identity(self) -> dict:
         """What decides the numbers that come out: a result counts only for the identity it was computed with."""
-        return {"verb": self.verb, "case": case_content(self.case), "mesh": self.mesh, "settings": self.settings}
+        case = case_content(self.case)
+        if isinstance(case, dict):
+            case = {table: keys for table, keys in case.items() if table not in WITHOUT_EFFECT}
+        settings = {key: value for key, value in self.settings.items() if key.split(".")[0] not in WITHOUT_EFFECT}
+        return {"verb": self.verb, "case": case, "mesh": self.mesh, "settings": settings}
 
 
 @dataclass(frozen=True)

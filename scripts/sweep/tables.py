@@ -52,7 +52,7 @@ def method_label(entry: Entry) -> str:
 def table_one_tables(results: Results) -> list[Table]:
     """Table I of the paper, one table a derivative: ours about 5.5 d and about the fitted centre, and how far off we are."""
     center, paper = results.center, results.published.paper
-    about = f"about {FREE_FLIGHT_CENTER} d and about x_ref = {center:.3f} d, fitted to the paper's five static values"
+    about = f"about {FREE_FLIGHT_CENTER} d and about x_ref = {center:.3f} d, fitted to the paper's static values"
     wanted = [
         ("static", "Cm_alpha", f"Static derivative Cm_alpha, per rad, {about}", "%"),
         ("acceleration", "Cm_alphadot", f"Acceleration derivative Cm_alphadot, per rad of alphadot d/2V, {about}", "diff"),

@@ -102,7 +102,7 @@ RunStatus derivatives_verb(const CaseArguments& arguments, const Communicator& c
     status = flow.march();
     const Real steady_cpu = comm.sum(steady_time.cpu());
     const Timer linear_time;
-    derivatives = solve_all(flow);
+    if (status != RunStatus::interrupted) derivatives = solve_all(flow);
     spdlog::info("steady state {:.1f} s of processor, linear solves {:.1f} s", steady_cpu,
                  comm.sum(linear_time.cpu()));
   } catch (const DivergedError& error) {

@@ -76,8 +76,31 @@ std::unique_ptr<Treatment> FlowCase::treatment(Real time_step) {
                         setup_.domain, discretization_, comm_);
 }
 
-CheckpointField FlowCase::flow_field() {
-  return {"flow", iteration_.flow().values()};
+std::vector<Five<Real>> FlowCase::frozen_factors() {
+  std::vector<Five<Real>> out;
+  if (iteration_.limiter_is_frozen())
+    for (const auto& factors : iteration_.limiter_factors()) {
+      auto& cell = out.emplace_back();
+      for (int k = 0; k < 5; ++k) cell[k] = factors[k];
+    }
+  return out;
+}
+
+void FlowCase::save(const CheckpointHead& head, std::vector<CheckpointField> others) {
+  auto factors = frozen_factors();
+  others.push_back({"flow", iteration_.flow().values()});
+  if (iteration_.limiter_is_frozen()) others.push_back({"limiter_factors", factors});
+  checkpoints_.save(head, others);
+}
+
+void FlowCase::restore(std::vector<CheckpointField> others) {
+  iteration_.freeze_limiter(checkpoints_.restart()->numbers.at("limiter_is_frozen").at(0) != 0);
+  auto factors = frozen_factors();
+  others.push_back({"flow", iteration_.flow().values()});
+  if (iteration_.limiter_is_frozen()) others.push_back({"limiter_factors", factors});
+  checkpoints_.read(others);
+  for (std::size_t cell = 0; cell < factors.size(); ++cell)
+    for (int k = 0; k < 5; ++k) iteration_.limiter_factors()[cell][k] = static_cast<float>(factors[cell][k]);
 }
 
 CheckpointHead FlowCase::checkpoint_head(std::string phase) const {
@@ -85,6 +108,7 @@ CheckpointHead FlowCase::checkpoint_head(std::string phase) const {
   out.phase = std::move(phase);
   out.message = message_;
   out.history.info = history_info(settings(), setup_.mesh.hash);
+  out.numbers["limiter_is_frozen"] = {iteration_.limiter_is_frozen() ? 1.0 : 0.0};
   for (const Load& load : steady_report_.loads)
     for (int i = 0; i < 3; ++i) {
       out.numbers["steady_forces"].push_back(load.force[i]);
@@ -114,7 +138,7 @@ void FlowCase::save_steady(const SteadyState& state) {
   head.numbers["iteration"] = {static_cast<Real>(state.iteration)};
   head.numbers["cfl"] = {state.cfl};
   head.numbers["residuals"] = {state.first_residual, state.previous_residual};
-  checkpoints_.save(head, {flow_field()});
+  save(head);
 }
 
 RunStatus FlowCase::march() {
@@ -129,7 +153,7 @@ RunStatus FlowCase::march() {
     const auto& numbers = restart->numbers;
     state = {static_cast<int>(numbers.at("iteration").at(0)), numbers.at("cfl").at(0),
              numbers.at("residuals").at(0), numbers.at("residuals").at(1)};
-    checkpoints_.read({flow_field()});
+    restore();
   } else {
     iteration_.set_uniform(now.free_stream);
   }

@@ -39,8 +39,10 @@ class FlowCase {
   RunStatus march();
 
   Checkpoints& checkpoints() { return checkpoints_; }
-  /// The states of the flow, for a checkpoint.
-  CheckpointField flow_field();
+  /// Writes a checkpoint of the flow and of `others`, fields of the march that the head belongs to.
+  void save(const CheckpointHead& head, std::vector<CheckpointField> others = {});
+  /// Reads the same from the checkpoint that the run begins from.
+  void restore(std::vector<CheckpointField> others = {});
   /// A checkpoint's head with all that is known of the steady state.
   CheckpointHead checkpoint_head(std::string phase) const;
   /// Why the run ended as it did, for the result.
@@ -60,6 +62,8 @@ class FlowCase {
   PerformanceResult performance() const;
   /// Puts the steady loads of a checkpoint made in the motion in place.
   void restore_steady(const CheckpointHead& head);
+  /// Frozen factors of the limiter as they are kept in checkpoints, or none.
+  std::vector<Five<Real>> frozen_factors();
   void save_steady(const SteadyState& state);
 
   const Communicator& comm_;

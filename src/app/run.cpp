@@ -47,10 +47,8 @@ History::Row history_row(const StepReport& step, const FlowCase& flow) {
   return row;
 }
 
-std::vector<CheckpointField> fields_of(FlowCase& flow, DualTime& dual_time) {
-  return {flow.flow_field(),
-          {"latest_level", dual_time.latest_level()},
-          {"level_before", dual_time.level_before()}};
+std::vector<CheckpointField> levels_of(DualTime& dual_time) {
+  return {{"latest_level", dual_time.latest_level()}, {"level_before", dual_time.level_before()}};
 }
 
 void save(FlowCase& flow, DualTime& dual_time, const History& history) {
@@ -59,11 +57,11 @@ void save(FlowCase& flow, DualTime& dual_time, const History& history) {
   head.numbers["step"] = {static_cast<Real>(state.step)};
   head.numbers["largest"] = {state.largest_angle, state.largest_moment};
   head.history = history;
-  flow.checkpoints().save(head, fields_of(flow, dual_time));
+  flow.save(head, levels_of(dual_time));
 }
 
 void restore(const CheckpointHead& head, FlowCase& flow, DualTime& dual_time, History& history) {
-  flow.checkpoints().read(fields_of(flow, dual_time));
+  flow.restore(levels_of(dual_time));
   const auto& numbers = head.numbers;
   dual_time.restore(
       {static_cast<int>(numbers.at("step").at(0)), numbers.at("largest").at(0), numbers.at("largest").at(1)});

@@ -1,6 +1,7 @@
 #include "app/stop.hpp"
 
 #include <csignal>
+#include <initializer_list>
 
 namespace alphadot {
 

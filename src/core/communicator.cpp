@@ -102,6 +102,7 @@ std::vector<Problem> problems_of(const std::function<void()>& work) {
     work();
     return {};
   } catch (const InputError& error) {
+    if (error.problems().empty()) return {Problem{"", 0, "an error without a description", ""}};
     return error.problems();
   } catch (const std::exception& error) {
     return {Problem{"", 0, error.what(), ""}};

@@ -20,6 +20,9 @@ Discretization::Discretization(const Subdomain& domain, std::vector<BoundaryKind
 
 namespace {
 
+/// Of the unit weight of a cell in the value of a point.
+constexpr Real largest_correction = 0.8;
+
 Symmetric3 inverse(const Symmetric3& a) {
   const Real cxx = a.yy * a.zz - a.yz * a.yz, cxy = a.xz * a.yz - a.xy * a.zz,
              cxz = a.xy * a.yz - a.xz * a.yy;
@@ -65,11 +68,11 @@ void Discretization::update_geometry() {
     const Vec3 lambda = -(inverse(second) * moments.first);
     if (moments.count < 4 || !std::isfinite(norm(lambda))) continue;
     moments.lambda = lambda;
-    // On the boundary, where the cells lie to one side, weights are kept from turning negative.
+    // On the boundary, where the cells lie to one side, weights are kept well above zero.
     Real largest = 0;
     for (const Index cell : domain_.point_cells[point])
       largest = std::max(largest, std::abs(dot(moments.lambda, domain_.center[cell] - domain_.points[point])));
-    if (largest > 1) moments.lambda = (1 / largest) * moments.lambda;
+    if (largest > largest_correction) moments.lambda = (largest_correction / largest) * moments.lambda;
   }
 
   std::vector<std::uint8_t> impermeable_faces(cells, 0);

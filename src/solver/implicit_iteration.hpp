@@ -1,6 +1,7 @@
 // One implicit iteration, shared by the steady and the dual-time driver.
 #pragma once
 
+#include <atomic>
 #include <memory>
 #include <span>
 #include <vector>
@@ -40,6 +41,9 @@ class ImplicitIteration {
 
   /// Holds the limiter's factors of the latest evaluation, or lets them go.
   void freeze_limiter(bool frozen) { residual_.freeze_limiter(frozen); }
+  /// Once frozen they are part of what a march depends on.
+  bool limiter_is_frozen() const { return residual_.reconstruction().limiter_is_frozen(); }
+  std::span<Five<float>> limiter_factors() { return residual_.limiter_factors(); }
   /// Evaluates R(W) into residual_values().
   void evaluate(const Conditions<Real>& conditions, int order);
   /// Norm, loads and flags of the latest evaluation: one all-reduce.
@@ -72,7 +76,7 @@ class ImplicitIteration {
   std::vector<Conserved<Real>> values_;  // [owned_cells]
   std::vector<Primitive<Real>> update_;  // [owned_cells]; after advance(): the flow before it
   int order_ = 1;
-  GlobalIndex iterations_ = 0;
+  std::atomic<GlobalIndex> iterations_ = 0;  // read by the watchdog's thread
 };
 
 }  // namespace alphadot

@@ -37,6 +37,9 @@ class Reconstruction {
   void update(const FlowField<T>& flow);
   /// From now on the limiter's factors stay what they were in the latest update (or are free again).
   void freeze_limiter(bool frozen) { frozen_ = frozen; }
+  bool limiter_is_frozen() const { return frozen_; }
+  /// [owned_cells] of the latest evaluation; empty when the case never freezes them.
+  std::span<Five<float>> limiter_factors() { return factors_; }
   /// Brings the gradients of face ghosts up to date.
   void start_exchange() { gradients_.start_exchange(); }
   void finish_exchange() { gradients_.finish_exchange(); }

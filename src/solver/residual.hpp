@@ -25,6 +25,7 @@ class Residual {
   const Reconstruction<T>& reconstruction() const { return reconstruction_; }
   /// Holds the limiter's factors, or lets them go.
   void freeze_limiter(bool frozen) { reconstruction_.freeze_limiter(frozen); }
+  std::span<Five<float>> limiter_factors() { return reconstruction_.limiter_factors(); }
   /// Faces on this rank where the latest evaluation fell back to first order to keep density and pressure
   /// positive.
   Index fallback_faces() const { return fallback_faces_; }

@@ -35,8 +35,9 @@ struct SteadyResult {
 
 /// Iterates until the density residual has dropped by `settings.orders` decades, the iterations are used up
 /// (status completed) or the observer returns false (interrupted). The CFL number grows while the residual
-/// behaves and is cut with the step taken back when a state turns unphysical or the residual leaps; below
-/// `smallest_cfl` the run is diverged. Starts from the flow in `iteration`, or goes on `from` the state that
+/// behaves; when a state turns unphysical or the residual leaps, the step is taken back, the CFL number cut and some
+/// iterations of first order let the flow settle; below `smallest_cfl` the run is diverged. A residual of nothing but
+/// round-off counts as converged too. Starts from the flow in `iteration`, or goes on `from` the state that
 /// belongs to it.
 SteadyResult march_to_steady(ImplicitIteration& iteration, const Conditions<Real>& conditions,
                              const SteadySettings& settings, int order,

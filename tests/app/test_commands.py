@@ -44,8 +44,8 @@ class Commands(unittest.TestCase):
         self.assertEqual(outcome.err, "")
         return outcome.out
 
-    def result(self) -> dict:
-        return json.loads((self.folder / "plunge" / "result.json").read_text())
+    def result(self, folder: str = "plunge") -> dict:
+        return json.loads((self.folder / folder / "result.json").read_text())
 
     def test_run_succeeds(self) -> None:
         self.assertEqual(self.outcome.codes, [0] * RANKS, self.outcome.err)
@@ -64,7 +64,7 @@ class Commands(unittest.TestCase):
             self.assertGreater(result["performance"][name], 0)
         self.assertRegex(result["provenance"]["version"], r"^\d+\.\d+\.\d+")
 
-    def test_derivatives_are_those_of_a_flat_plate(self) -> None:
+    def assert_flat_plate(self, derivatives: dict) -> None:
         """The wall is the upper side of a plate at Mach 2, whose leading edge is the moment centre.
 
         Busemann: CN = c1 alpha - c2 alpha^2. Linear theory for slow plunge: Cp = -c1 (alpha - alphadot x / (V beta^2)).
@@ -74,10 +74,19 @@ class Commands(unittest.TestCase):
         c2 = ((gamma + 1.0) * 2.0**4 - 4.0 * beta2) / (2.0 * beta2**2)
         slope = c1 - 2.0 * c2 * math.radians(1.0)
         exact = {"CN_alpha": (slope, 0.01), "Cm_alpha": (-slope / 2.0, 0.01), "CN_alphadot": (-c1 / beta2, 0.05)}
-        derivatives = self.result()["derivatives"]
         for name, (value, tolerance) in exact.items():
             with self.subTest(name):
                 self.assertAlmostEqual(derivatives[name]["value"], value, delta=tolerance * abs(value))
+
+    def test_derivatives_of_the_plunge(self) -> None:
+        self.assert_flat_plate(self.result()["derivatives"])
+
+    def test_derivatives_by_linear_solves(self) -> None:
+        self.succeeded("derivatives", "case.toml", "--out", "linear", "--quiet")
+        result = self.result("linear")
+        self.assertEqual(result["status"], "converged")
+        self.assert_flat_plate(result["derivatives"])
+        self.assertLess(result["derivatives"]["CN_alphadot"]["uncertainty"], 1e-3)
 
     def test_history(self) -> None:
         with open(self.folder / "plunge" / "history.csv") as file:
@@ -97,10 +106,7 @@ class Commands(unittest.TestCase):
 
     def test_resolved_case_gives_the_same_run(self) -> None:
         self.succeeded("run", "plunge/case.toml", "--out", "again", "--quiet")
-        first, again = (
-            json.loads((self.folder / name / "result.json").read_text())["derivatives"]["Cm_alphadot"]["value"]
-            for name in ("plunge", "again")
-        )
+        first, again = (self.result(folder)["derivatives"]["Cm_alphadot"]["value"] for folder in ("plunge", "again"))
         self.assertAlmostEqual(first, again, delta=1e-9)
 
     def test_derive(self) -> None:
@@ -126,7 +132,7 @@ class Commands(unittest.TestCase):
 
     def test_help_names_the_verbs(self) -> None:
         text = self.succeeded("--help")
-        for verb in ("run", "check", "derive", "info"):
+        for verb in ("run", "derivatives", "check", "derive", "info"):
             self.assertRegex(text, rf"\n  {verb} ")
 
     def test_version(self) -> None:

@@ -59,10 +59,10 @@ class Plan(Workspace):
         self.refused("[[runs]]\nmach = 2\n", "case", head="")
         self.refused("[[runs\n", "TOML")
 
-    def test_comments_in_the_case_do_not_count(self) -> None:
+    def test_comments_and_checkpoints_do_not_count(self) -> None:
         self.write("[[runs]]\nmach = 2\n")
         before = read_sweep(self.file).runs[0].identity()
-        (self.folder / "good.toml").write_text('# a remark\ntitle   =  "good"\n')
+        (self.folder / "good.toml").write_text('# a remark\ntitle   =  "good"\n[checkpoint]\nminutes = 1\n')
         self.assertEqual(read_sweep(self.file).runs[0].identity(), before)
         (self.folder / "good.toml").write_text('title = "other"\n')
         self.assertNotEqual(read_sweep(self.file).runs[0].identity(), before)
