@@ -35,7 +35,7 @@ start_node "$folder/node"
 sinfo
 
 step "A sweep whose plunge is longer than the limit of its job, and the same without a limit"
-/usr/bin/python3 cases/basic_finner/mesh.py --size 0.13 --output "$folder/tiny.msh"
+/usr/bin/python3 cases/basic_finner/mesh.py --level coarse --output "$folder/coarse.msh"
 cp cases/basic_finner/{derivatives,plunge}.toml "$folder"
 # So many steps that the plunge takes several minutes. Slurm may send its signal up to a minute earlier than it is told to.
 sweep() {
@@ -43,7 +43,7 @@ sweep() {
 title = "Sweep under Slurm"
 case = "derivatives.toml"
 folder = "$1"
-mesh = "tiny.msh"
+mesh = "coarse.msh"
 alpha = 1.5
 ranks = 1
 

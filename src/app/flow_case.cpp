@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <utility>
@@ -38,6 +39,13 @@ Setup prepare(const CaseArguments& arguments, const Communicator& comm) {
   const Case settings = load_case(arguments.case_file, arguments.overrides, comm);
   comm.on_root([&] { make_run_folder(run_folder(arguments, settings)); });
   return load_setup(settings, comm);
+}
+
+/// For flows that a bold start drives into vacuum: strong shocks, high incidence.
+SteadySettings gentler(SteadySettings settings) {
+  settings.cfl_start /= 10;
+  settings.cfl_growth = std::pow(settings.cfl_growth, 0.4);
+  return settings;
 }
 
 }  // namespace
@@ -162,19 +170,24 @@ RunStatus FlowCase::march() {
   const Watchdog watchdog(
       settings().checkpoint.watchdog_minutes, [&] { return iteration_.iterations(); }, comm_);
   const int interval = settings().checkpoint.iterations;
-  const auto result = march_to_steady(
-      iteration_, now, settings().steady, settings().space.order,
-      [&](const SteadyProgress& p) {
-        lines.show(p);
-        state = p.state;
-        const Wish wish = checkpoints_.poll(interval > 0 && p.iteration % interval == 0);
-        if (wish.save && p.resumable) {
-          save_steady(state);
-          saved = state.iteration;
-        }
-        return !(wish.stop && p.resumable);
-      },
-      state);
+  const auto observe = [&](const SteadyProgress& p) {
+    lines.show(p);
+    state = p.state;
+    const Wish wish = checkpoints_.poll(interval > 0 && p.iteration % interval == 0);
+    if (wish.save && p.resumable) {
+      save_steady(state);
+      saved = state.iteration;
+    }
+    return !(wish.stop && p.resumable);
+  };
+  auto result = march_to_steady(iteration_, now, settings().steady, settings().space.order, observe, state);
+  if (result.status == RunStatus::diverged) {
+    spdlog::warn("the steady march lost its way in iteration {}: beginning again with gentler steps",
+                 result.iterations);
+    iteration_.set_uniform(now.free_stream);
+    state = {};
+    result = march_to_steady(iteration_, now, gentler(settings().steady), settings().space.order, observe);
+  }
   steady_report_ = result.report;
   if (result.status == RunStatus::interrupted) message_ = checkpoints_.stop_reason();
   if (result.status == RunStatus::diverged)

@@ -101,6 +101,17 @@ RunStatus follow_motion(FlowCase& flow, History& history) {
   return RunStatus::completed;
 }
 
+/// Derivatives from the whole motion. A history that yields none is no reason to lose the rest.
+Extraction extract(FlowCase& flow, const History& history) {
+  try {
+    return extract_derivatives(history);
+  } catch (const InputError& error) {
+    flow.set_message(fmt::format("no derivatives: {}", error.what()));
+    spdlog::warn("no derivatives: {}", error.what());
+    return {};
+  }
+}
+
 }  // namespace
 
 RunStatus run_verb(const CaseArguments& arguments, const Communicator& comm) {
@@ -114,7 +125,7 @@ RunStatus run_verb(const CaseArguments& arguments, const Communicator& comm) {
     status = flow.march();
     if (status != RunStatus::interrupted && flow.settings().motion.kind != MotionKind::none) {
       status = follow_motion(flow, history);
-      if (status != RunStatus::interrupted) extraction = extract_derivatives(history);
+      if (status == RunStatus::completed) extraction = extract(flow, history);
     }
   } catch (const DivergedError& error) {
     status = RunStatus::diverged;

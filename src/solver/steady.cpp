@@ -15,8 +15,10 @@ constexpr int early_jacobian_age = 4, late_jacobian_age = 10;
 constexpr Real early_orders = 2;
 /// Iterations of first order that follow a rejected step.
 constexpr int rescue_iterations = 20;
+constexpr int most_rejections = 6;
 
-/// Size of a density residual that is nothing but round-off: the mass flux through a mean face in double precision.
+/// Size of a density residual that is nothing but round-off: the mass flux through a mean face in double
+/// precision.
 Real round_off_residual(const ImplicitIteration& iteration, const Conditions<Real>& conditions) {
   const Subdomain& domain = iteration.discretization().domain();
   Real area2 = 0;
@@ -38,6 +40,7 @@ SteadyResult march_to_steady(ImplicitIteration& iteration, const Conditions<Real
   const Real freeze_orders = iteration.discretization().space().freeze_orders;
   Real cfl = resumed ? from.cfl : settings.cfl_start;
   int rescue = 0;  // iterations of first order that are left
+  int rejections = 0;
   const auto evaluate = [&] {
     iteration.evaluate(conditions, rescue > 0 ? 1 : order);
     return iteration.report();
@@ -72,7 +75,7 @@ SteadyResult march_to_steady(ImplicitIteration& iteration, const Conditions<Real
       iteration.undo();
       cfl *= 0.1;
       jacobian_age = late_jacobian_age;
-      if (cfl < smallest_cfl) return ended(RunStatus::diverged);
+      if (++rejections > most_rejections || cfl < smallest_cfl) return ended(RunStatus::diverged);
       rescue = rescue_iterations;
       report = evaluate();
       previous = report.density_residual;

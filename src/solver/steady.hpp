@@ -35,10 +35,10 @@ struct SteadyResult {
 
 /// Iterates until the density residual has dropped by `settings.orders` decades, the iterations are used up
 /// (status completed) or the observer returns false (interrupted). The CFL number grows while the residual
-/// behaves; when a state turns unphysical or the residual leaps, the step is taken back, the CFL number cut and some
-/// iterations of first order let the flow settle; below `smallest_cfl` the run is diverged. A residual of nothing but
-/// round-off counts as converged too. Starts from the flow in `iteration`, or goes on `from` the state that
-/// belongs to it.
+/// behaves; when a state turns unphysical or the residual leaps, the step is taken back, the CFL number cut
+/// and some iterations of first order let the flow settle; after too many such steps the run is diverged. A
+/// residual of nothing but round-off counts as converged too. Starts from the flow in `iteration`, or goes on
+/// `from` the state that belongs to it.
 SteadyResult march_to_steady(ImplicitIteration& iteration, const Conditions<Real>& conditions,
                              const SteadySettings& settings, int order,
                              const std::function<bool(const SteadyProgress&)>& observer,

@@ -64,7 +64,6 @@ TEST(DualTime, IsOfSecondOrderFromTheStart) {
     const Real time = 0.3 * level_motion(kind, 1).period();
     const Real coarse = force_at(kind, time, 24), medium = force_at(kind, time, 48),
                fine = force_at(kind, time, 96);
-    std::printf("ratio %g  %g %g %g\n", (coarse - medium) / (medium - fine), coarse, medium, fine);
     EXPECT_GT((coarse - medium) / (medium - fine), 3.2);
   }
 }

@@ -27,10 +27,10 @@ BoxSides open_box_with_body() {
   return sides;
 }
 
-/// A wall to take loads on.
-BoxSides box_with_wall() {
+/// A wall to take loads on, below or to port.
+BoxSides box_with_wall(int side = 4) {
   BoxSides sides = open_box();
-  sides[4] = BoundaryKind::wall;
+  sides[static_cast<std::size_t>(side)] = BoundaryKind::wall;
   return sides;
 }
 
@@ -56,8 +56,10 @@ TEST_P(EveryMotion, KeepsTheFreeStream) {
 /// rigid grid.
 Real difference_of_treatments(MotionKind kind, LimiterKind limiter) {
   const Motion motion = box_motion(kind);
-  MovingBox still(box_with_wall(), {.limiter = limiter}, motion, TreatmentKind::field_velocity, 0.15);
-  MovingBox moving(box_with_wall(), {.limiter = limiter}, motion, TreatmentKind::rigid_grid, 0.15);
+  // The march converges the moment that the motion drives: there must be one.
+  const auto sides = box_with_wall(motion.moment_axis() == 2 ? 2 : 4);
+  MovingBox still(sides, {.limiter = limiter}, motion, TreatmentKind::field_velocity, 0.05);
+  MovingBox moving(sides, {.limiter = limiter}, motion, TreatmentKind::rigid_grid, 0.05);
   Real worst = 0;
   for (MovingBox* box : {&still, &moving}) {
     fill(box->iteration.flow(), box->domain, [](const Vec3& x, GlobalIndex) { return wavy_state(x); });
@@ -67,7 +69,6 @@ Real difference_of_treatments(MotionKind kind, LimiterKind limiter) {
     const Load a = still.advance(80).report.total, b = moving.advance(80).report.total;
     worst = std::max(worst, relative_difference(a, b));
   }
-  std::printf("difference %g\n", worst);
   return worst;
 }
 

@@ -1,0 +1,144 @@
+#!/usr/bin/python3
+"""A run that was stopped goes on as if it had not: the same bits on the same ranks, the same derivatives on others."""
+
+from __future__ import annotations
+
+import shutil
+import subprocess
+import tempfile
+import unittest
+from pathlib import Path
+
+from runs import STEPS, checkpoints, derivatives, differences, make_case, result, run, settings
+
+
+class Restart(unittest.TestCase):
+    def setUp(self) -> None:
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.folder = Path(temporary.name)
+        make_case(self.folder)
+        self.full, self.part = self.folder / "full", self.folder / "part"
+
+    def run_ok(self, out: Path, *arguments: object, code: int = 0, ranks: int = 1) -> subprocess.CompletedProcess[str]:
+        done = run(self.folder, out, *arguments, ranks=ranks)
+        self.assertEqual(done.returncode, code, done.stderr)
+        return done
+
+    def run_until_stopped_everywhere(self, *arguments: object, ranks: int = 1) -> int:
+        """Stops the run wherever it can be stopped; returns how often that was."""
+        self.part.mkdir()
+        for stops in range(100):
+            (self.part / "stop").touch()
+            done = run(self.folder, self.part, "--restart", *arguments, ranks=ranks)
+            if done.returncode == 0:
+                return stops
+            self.assertEqual(done.returncode, 3, done.stderr)
+            self.assertEqual(result(self.part)["status"], "interrupted")
+            self.assertFalse((self.part / "stop").exists())
+        raise AssertionError("the run never ends")
+
+    def test_stopped_at_every_step(self) -> None:
+        for ranks, arguments in (
+            (1, []),
+            (2, []),
+            (1, settings(space_freeze_orders=2)),
+            (1, settings(steady_scheme="lu_sgs")),
+            (1, settings(motion_kind="pitch", motion_treatment="rigid_grid")),
+            (1, settings(motion_kind="pitch", motion_treatment="deforming_grid")),
+            (1, settings(motion_kind="step_alpha", unsteady_duration=2, unsteady_steps=15)),
+        ):
+            with self.subTest(ranks=ranks, arguments=arguments):
+                for out in (self.full, self.part):
+                    shutil.rmtree(out, ignore_errors=True)
+                self.run_ok(self.full, *arguments, ranks=ranks)
+                stops = self.run_until_stopped_everywhere(*arguments, ranks=ranks)
+                self.assertGreaterEqual(stops, 5)
+                self.assertEqual(differences(self.full, self.part), [])
+
+    def test_other_numbers_of_ranks(self) -> None:
+        tight = settings(unsteady_inner_tolerance=1e-8, unsteady_max_inner=400, steady_orders=11)
+        self.run_ok(self.full, *tight)
+        expected = derivatives(self.full)
+        for first, then in ((1, 2), (2, 3), (4, 1)):
+            with self.subTest(first=first, then=then):
+                shutil.rmtree(self.part, ignore_errors=True)
+                self.run_ok(self.part, *tight, *settings(unsteady_cycles=0.75), ranks=first)  # too short for a fit
+                self.run_ok(self.part, *tight, "--restart", ranks=then)
+                for name, value in derivatives(self.part).items():
+                    self.assertAlmostEqual(value, expected[name], delta=1e-6 * abs(expected[name]), msg=name)
+
+    def test_a_finished_run_is_extended(self) -> None:
+        longer = settings(unsteady_cycles=2.5)
+        self.run_ok(self.full, *longer)
+        self.run_ok(self.part)
+        self.run_ok(self.part, "--restart", *longer)
+        self.assertEqual(differences(self.full, self.part), [])
+
+    def test_a_finished_run_stays_finished(self) -> None:
+        self.run_ok(self.full)
+        shutil.copytree(self.full, self.part)
+        self.run_ok(self.part, "--restart")
+        self.assertEqual(differences(self.full, self.part), [])
+
+    def test_a_steady_run_goes_on_to_more_decades_and_to_a_motion(self) -> None:
+        self.run_ok(self.part, *settings(motion_kind="none", steady_orders=4))
+        steady = self.run_ok(self.part, "--restart", *settings(motion_kind="none"))
+        self.assertNotIn("e-00", steady.stderr)
+        self.assertEqual(result(self.part)["status"], "converged")
+        self.run_ok(self.part, "--restart")
+        self.assertEqual(result(self.part)["status"], "completed")
+
+    def test_without_a_checkpoint_it_begins_at_the_beginning(self) -> None:
+        done = self.run_ok(self.part, "--restart")
+        self.assertIn("starts from the beginning", done.stderr)
+
+    def test_a_named_file(self) -> None:
+        self.run_ok(self.full, *settings(checkpoint_steps=5, checkpoint_keep=10))
+        files = checkpoints(self.full)
+        self.assertEqual(len(files), 2 + STEPS // 5)  # the steady state and the end always
+        done = self.run_ok(self.part, "--restart", files[1])
+        self.assertIn(f"goes on from {files[1]}", done.stderr)
+        self.assertEqual((self.full / "history.csv").read_bytes(), (self.part / "history.csv").read_bytes())
+
+    def refused(self, *says: str, arguments: list[object]) -> None:
+        done = run(self.folder, self.part, "--restart", *arguments)
+        self.assertEqual(done.returncode, 1, done.stderr)
+        for part in says:
+            self.assertIn(part, done.stderr)
+        self.assertNotIn("internal error", done.stderr)
+
+    def test_contradictions_are_refused_by_key(self) -> None:
+        self.run_ok(self.part)
+        self.refused("freestream.mach is 3", "made with 2", arguments=settings(freestream_mach=3))
+        self.refused("unsteady.steps_per_cycle", arguments=settings(unsteady_steps_per_cycle=17))
+        self.refused("motion.kind", "motion.amplitude", arguments=settings(motion_kind="pitch", motion_amplitude=2))
+
+    def test_another_mesh_is_refused(self) -> None:
+        self.run_ok(self.part)
+        make_case(self.folder, cells=2)
+        self.refused("belongs to another mesh", arguments=[])
+
+    def test_damaged_checkpoints_are_named_and_passed_over(self) -> None:
+        arguments = settings(checkpoint_steps=1, checkpoint_keep=5)
+        self.run_ok(self.full, *arguments)
+        shutil.copytree(self.full, self.part)
+        *_, third, second, first = checkpoints(self.part)
+        first.write_bytes(first.read_bytes()[:1000])
+        content = bytearray(second.read_bytes())
+        content[len(content) // 2] ^= 1
+        second.write_bytes(content)
+        done = self.run_ok(self.part, "--restart", *arguments)
+        for part in (f"{first.name}: is cut short", f"{second.name}: is damaged", f"goes on from {third}"):
+            self.assertIn(part, done.stderr)
+        self.assertEqual(differences(self.full, self.part), [])
+
+    def test_all_damaged_is_an_error(self) -> None:
+        self.run_ok(self.part)
+        for file in checkpoints(self.part):
+            file.write_bytes(b"")
+        self.refused("no checkpoint in the folder is whole", *(file.name for file in checkpoints(self.part)), arguments=[])
+
+
+if __name__ == "__main__":
+    unittest.main()
