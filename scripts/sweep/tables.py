@@ -166,4 +166,4 @@ def cost_table(results: Results) -> Table:
     total = lambda index: sum(row[index] or 0 for row in rows)
     rows.append(["all", None, None, total(3), total(4), total(5), None, None, None, f"{duration(total(4))} of wall clock"])
     formats = ["", ",d", "d", ",d", ".1f", ".1f", ".2f", ".0f", ".1f", ""]
-    return Table("cost", "What the runs took", columns, rows, formats)
+    return Table("cost", "What the runs took, each in its last attempt", columns, rows, formats)

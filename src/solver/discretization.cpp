@@ -71,7 +71,8 @@ void Discretization::update_geometry() {
     // On the boundary, where the cells lie to one side, weights are kept well above zero.
     Real largest = 0;
     for (const Index cell : domain_.point_cells[point])
-      largest = std::max(largest, std::abs(dot(moments.lambda, domain_.center[cell] - domain_.points[point])));
+      largest =
+          std::max(largest, std::abs(dot(moments.lambda, domain_.center[cell] - domain_.points[point])));
     if (largest > largest_correction) moments.lambda = (largest_correction / largest) * moments.lambda;
   }
 

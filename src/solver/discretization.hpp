@@ -14,8 +14,8 @@ namespace alphadot {
 struct PointMoments {
   Real count;
   Vec3 first;
-  /// Makes the weights 1 + lambda . (c_j - x) of the cells give the point the value of any linear field (Holmes &
-  /// Connell 1989).
+  /// Makes the weights 1 + lambda . (c_j - x) of the cells give the point the value of any linear field
+  /// (Holmes & Connell 1989).
   Vec3 lambda;
 };
 

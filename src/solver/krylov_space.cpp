@@ -6,6 +6,8 @@ namespace alphadot {
 
 namespace {
 
+constexpr Real largest_cancellation = 0.05;  // of a vector's norm, before it is made orthogonal twice
+
 Real local_dot(std::span<const Primitive<Real>> a, std::span<const Primitive<Real>> b) {
   Real sum = 0;
   for (std::size_t i = 0; i < a.size(); ++i)
@@ -47,11 +49,15 @@ std::vector<Real> KrylovSpace::project_out(std::vector<Primitive<Real>>& vector)
 Real KrylovSpace::extend(std::span<const Primitive<Real>> image) {
   auto& next = basis_[static_cast<std::size_t>(size_) + 1];
   next.assign(image.begin(), image.end());
+  // Once more only where most of the vector has cancelled and round-off would spoil what is left.
+  Real norm_before = std::sqrt(comm_.sum(local_dot(next, next))), norm_left = 0;
   for (int pass = 0; pass < 2; ++pass) {
     const auto products = project_out(next);
     for (int j = 0; j <= size_; ++j) hessenberg_(j, size_) += products[static_cast<std::size_t>(j)];
+    norm_left = std::sqrt(comm_.sum(local_dot(next, next)));
+    if (norm_left > largest_cancellation * norm_before) break;
+    norm_before = norm_left;
   }
-  const Real norm_left = std::sqrt(comm_.sum(local_dot(next, next)));
   hessenberg_(size_ + 1, size_) = norm_left;
   if (norm_left > 0) scale(next, 1 / norm_left);
   ++size_;

@@ -23,8 +23,8 @@ class KrylovSpace {
   Real start(std::span<const Primitive<Real>> residual);
   /// The vector to which the operator is to be applied next.
   std::span<const Primitive<Real>> direction() const { return basis_[static_cast<std::size_t>(size_)]; }
-  /// Takes the operator times direction(); returns the norm of the residual that is left. Collective (two
-  /// all-reduces: classical Gram-Schmidt, done twice).
+  /// Takes the operator times direction(); returns the norm of the residual that is left. Collective
+  /// (classical Gram-Schmidt, done twice where most of the vector cancels).
   Real extend(std::span<const Primitive<Real>> image);
   bool is_full() const { return size_ == capacity_; }
   /// Number of directions used so far.

@@ -20,10 +20,14 @@ template <class T>
 void Reconstruction<T>::update(const FlowField<T>& flow) {
   gather_points(flow);
   switch (discretization_.space().limiter) {
-    case LimiterKind::venkatakrishnan: return fit_cells<LimiterKind::venkatakrishnan>(flow);
-    case LimiterKind::mlp_u2: return fit_cells<LimiterKind::mlp_u2>(flow);
-    case LimiterKind::barth_jespersen: return fit_cells<LimiterKind::barth_jespersen>(flow);
-    case LimiterKind::none: return fit_cells<LimiterKind::none>(flow);
+    case LimiterKind::venkatakrishnan:
+      return fit_cells<LimiterKind::venkatakrishnan>(flow);
+    case LimiterKind::mlp_u2:
+      return fit_cells<LimiterKind::mlp_u2>(flow);
+    case LimiterKind::barth_jespersen:
+      return fit_cells<LimiterKind::barth_jespersen>(flow);
+    case LimiterKind::none:
+      return fit_cells<LimiterKind::none>(flow);
   }
 }
 
@@ -86,17 +90,18 @@ Gradient<T> Reconstruction<T>::green_gauss(Index cell) const {
     const PointSums& sums = points_[corners[corner]];
     const PointMoments& moments = discretization_.point_moments(corners[corner]);
     const Real inverse_weight = 1 / (moments.count + dot(moments.lambda, moments.first));
-    // Over a tetrahedron the surface integral of values linear on its faces is that of the linear interpolant, whose
-    // gradient is a sum over corners of value times the inward area of the opposite face over 3 V.
+    // Over a tetrahedron the surface integral of values linear on its faces is that of the linear
+    // interpolant, whose gradient is a sum over corners of value times the inward area of the opposite face
+    // over 3 V.
     const Vec3& a = domain.points[corners[(corner + 1) % 4]];
     const Vec3& b = domain.points[corners[(corner + 2) % 4]];
     const Vec3& c = domain.points[corners[(corner + 3) % 4]];
     const Vec3 area = cross(b - a, c - a);
     const Vec3 slope = (1 / dot(domain.points[corners[corner]] - a, area)) * area;
     for (int i = 0; i < 5; ++i) {
-      const T value =
-          inverse_weight * (sums.value[i] + moments.lambda.x * sums.moment.along[0][i] +
-                            moments.lambda.y * sums.moment.along[1][i] + moments.lambda.z * sums.moment.along[2][i]);
+      const T value = inverse_weight * (sums.value[i] + moments.lambda.x * sums.moment.along[0][i] +
+                                        moments.lambda.y * sums.moment.along[1][i] +
+                                        moments.lambda.z * sums.moment.along[2][i]);
       for (int axis = 0; axis < 3; ++axis) out.along[axis][i] += slope[axis] * value;
     }
   }
@@ -122,15 +127,16 @@ Primitive<T> Reconstruction<T>::limiter_factors(Index cell, const Arms& arms, co
     }
   Primitive<T> factor{{T(1), T(1), T(1), T(1), T(1)}};
   for (std::size_t corner = 0; corner < 4; ++corner) {
-    // MLP looks at the corner itself; the others at the face opposite, a third of the arm beyond the centroid.
+    // MLP looks at the corner itself; the others at the face opposite, a third of the arm beyond the
+    // centroid.
     const Vec3 offset = (limiter == LimiterKind::mlp_u2 ? -1.0 : 1.0 / 3) * arms[corner];
     if constexpr (limiter == LimiterKind::mlp_u2) {
       minimum = points_[corners[corner]].minimum;
       maximum = points_[corners[corner]].maximum;
     }
     for (int i = 0; i < 5; ++i) {
-      const T delta = offset.x * gradient.along[0][i] + offset.y * gradient.along[1][i] +
-                      offset.z * gradient.along[2][i];
+      const T delta =
+          offset.x * gradient.along[0][i] + offset.y * gradient.along[1][i] + offset.z * gradient.along[2][i];
       const T room = (delta > T(0) ? maximum[i] : minimum[i]) - w[i];
       T phi;
       if constexpr (limiter == LimiterKind::barth_jespersen)

@@ -32,8 +32,8 @@ class Reconstruction {
  public:
   Reconstruction(const Discretization& discretization, const Communicator& comm);
 
-  /// Fills the gradients of owned cells from a flow whose ghosts are current. Two passes: moments and extrema of the
-  /// points, then gradient and limiter of the cells (about 450 flops a cell).
+  /// Fills the gradients of owned cells from a flow whose ghosts are current. Two passes: moments and extrema
+  /// of the points, then gradient and limiter of the cells (about 450 flops a cell).
   void update(const FlowField<T>& flow);
   /// From now on the limiter's factors stay what they were in the latest update (or are free again).
   void freeze_limiter(bool frozen) { frozen_ = frozen; }
@@ -64,12 +64,13 @@ class Reconstruction {
   Gradient<T> least_squares(Index cell, const Arms& arms, const Primitive<T>& w) const;
   Gradient<T> green_gauss(Index cell) const;
   template <LimiterKind limiter>
-  Primitive<T> limiter_factors(Index cell, const Arms& arms, const Primitive<T>& w, const Gradient<T>& gradient) const;
+  Primitive<T> limiter_factors(Index cell, const Arms& arms, const Primitive<T>& w,
+                               const Gradient<T>& gradient) const;
 
   const Discretization& discretization_;
   CellField<Gradient<T>> gradients_;
-  std::vector<PointSums> points_;       // [owned_points]
-  std::vector<Five<float>> factors_;    // [owned_cells] of the limiter, when the case may freeze it
+  std::vector<PointSums> points_;     // [owned_points]
+  std::vector<Five<float>> factors_;  // [owned_cells] of the limiter, when the case may freeze it
   bool frozen_ = false;
 };
 

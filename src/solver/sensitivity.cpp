@@ -60,6 +60,7 @@ class Lockstep {
     const auto last = norms(residual());
     for (std::size_t k = 0; k < N; ++k)
       results_[k].relative_residual = last[k] / std::max(first_[k], Real{1e-300});
+    estimate_errors();
     return std::move(results_);
   }
 
@@ -85,6 +86,24 @@ class Lockstep {
     return out;
   }
 
+  /// One more correction -P^-1 (A U + b), not added to the fields, shows how far the loads may still go.
+  /// Corrections of a march shrink by a rate of 0.9 at worst where it converges at all, so that all that
+  /// follow make ten of the first.
+  void estimate_errors() {
+    constexpr Real corrections_to_come = 10;
+    precondition();
+    std::array<Load, N> totals;
+    for (std::size_t k = 0; k < N; ++k) {
+      totals[k] = results_[k].total;
+      for (std::size_t i = 0; i < cells_; ++i) results_[k].field[i] += work_[k][i];
+    }
+    residual();
+    for (std::size_t k = 0; k < N; ++k) {
+      results_[k].total_error = corrections_to_come * (results_[k].total - totals[k]);
+      for (std::size_t i = 0; i < cells_; ++i) results_[k].field[i] -= work_[k][i];
+    }
+  }
+
   void take_loads() {
     auto loads = tangent_.loads();
     std::vector<Real> buffer;
@@ -106,7 +125,6 @@ class Lockstep {
         total += load;
       }
       results_[k].loads = loads[k];
-      results_[k].total_error = total - results_[k].total;
       results_[k].total = total;
     }
   }

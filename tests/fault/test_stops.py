@@ -1,0 +1,117 @@
+#!/usr/bin/python3
+"""Runs that are told to stop, killed or hung: what they leave goes on to the same end, and says what happened."""
+
+from __future__ import annotations
+
+import os
+import signal
+import tempfile
+import unittest
+from pathlib import Path
+
+from runs import LiveRun, checkpoints, differences, make_case, result, run, settings
+
+LONG = settings(unsteady_cycles=10000)  # minutes, if nobody stops it
+
+
+class Stops(unittest.TestCase):
+    def setUp(self) -> None:
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.folder = Path(temporary.name)
+        make_case(self.folder)
+        self.full, self.part = self.folder / "full", self.folder / "part"
+
+    def start(self, *arguments: object, ranks: int = 1) -> LiveRun:
+        live = LiveRun(self.folder, self.part, *arguments, ranks=ranks)
+        self.addCleanup(lambda: live.kill() if live.process.poll() is None else None)
+        return live
+
+    def assert_goes_on_to_the_same_end(self, ranks: int = 1) -> None:
+        step = int(self.history_steps(self.part))
+        arguments = settings(unsteady_cycles=(step + 8) / 16)
+        for out, restart in ((self.full, []), (self.part, ["--restart"])):
+            done = run(self.folder, out, *arguments, *restart, ranks=ranks)
+            self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(differences(self.full, self.part), [])
+
+    @staticmethod
+    def history_steps(out: Path) -> int:
+        return len((out / "history.csv").read_text().splitlines()) - 1
+
+    def stopped_by(self, number: int, ranks: int) -> None:
+        live = self.start(*LONG, ranks=ranks)
+        live.wait_for("step +1/")
+        os.kill(live.process.pid, number)
+        self.assertEqual(live.wait(), 3, live.text())
+        self.assertEqual(result(self.part)["status"], "interrupted")
+        self.assertIn("signal", result(self.part)["message"])
+        self.assert_goes_on_to_the_same_end(ranks)
+
+    def test_sigusr2(self) -> None:
+        self.stopped_by(signal.SIGUSR2, 1)
+
+    def test_sigusr2_through_mpirun(self) -> None:
+        self.stopped_by(signal.SIGUSR2, 2)
+
+    def test_sigterm(self) -> None:
+        self.stopped_by(signal.SIGTERM, 1)
+
+    def test_sigint(self) -> None:
+        self.stopped_by(signal.SIGINT, 1)
+
+    def test_sigterm_to_mpirun(self) -> None:
+        live = self.start(*LONG, ranks=2)
+        live.wait_for("step +1/")
+        os.kill(live.process.pid, signal.SIGTERM)
+        self.assertNotEqual(live.wait(), 0)
+        self.assertEqual(result(self.part)["status"], "interrupted")
+        self.assertGreaterEqual(len(checkpoints(self.part)), 1)
+
+    def test_sigusr1_makes_a_checkpoint_and_goes_on(self) -> None:
+        for ranks in (1, 2):
+            with self.subTest(ranks=ranks):
+                live = self.start(*LONG, ranks=ranks)
+                live.wait_for("step +1/")
+                before = live.announced()
+                os.kill(live.rank_pids()[-1], signal.SIGUSR1)  # one rank is enough
+                live.wait_for(rf"checkpoint checkpoint_{before + 1:06}")
+                self.assertIsNone(live.process.poll())
+                live.kill()
+                self.assertEqual(result(self.part)["status"], "interrupted")
+
+    def test_wall_limit(self) -> None:
+        done = run(self.folder, self.part, *LONG, *settings(checkpoint_wall_limit_minutes=0.05))
+        self.assertEqual(done.returncode, 3, done.stderr)
+        self.assertIn("wall time limit", result(self.part)["message"])
+        self.assertLess(result(self.part)["performance"]["wall_s"], 3)
+
+    def test_checkpoints_by_the_clock(self) -> None:
+        live = self.start(*LONG, *settings(checkpoint_minutes=0.003))
+        live.wait_for("checkpoint checkpoint_000004")
+        self.assertLessEqual(len(checkpoints(self.part)), 3)  # two are kept; one may be new
+        live.kill()
+
+    def test_a_killed_rank_ends_the_run(self) -> None:
+        live = self.start(*LONG, ranks=2)
+        live.wait_for("step +1/")
+        os.kill(live.rank_pids()[1], signal.SIGKILL)
+        self.assertNotEqual(live.wait(), 0)
+        self.assertEqual(result(self.part)["status"], "interrupted")
+
+    def test_a_hung_rank_ends_the_run(self) -> None:
+        live = self.start(*LONG, *settings(checkpoint_watchdog_minutes=0.03), ranks=2)
+        live.wait_for("step +1/")
+        os.kill(live.rank_pids()[1], signal.SIGSTOP)
+        self.assertNotEqual(live.wait(), 0)
+        self.assertEqual(live.text().count("no iteration has ended for 0.03 minutes"), 1, live.text())
+        self.assertEqual(result(self.part)["status"], "interrupted")
+
+    def test_a_flow_that_breaks_down(self) -> None:
+        done = run(self.folder, self.part, *settings(freestream_mach=1e12, checkpoint_iterations=1))
+        self.assertEqual(done.returncode, 4, done.stderr)
+        self.assertEqual(result(self.part)["status"], "diverged")
+
+
+if __name__ == "__main__":
+    unittest.main()
