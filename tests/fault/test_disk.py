@@ -1,0 +1,105 @@
+#!/usr/bin/python3
+"""A disk that is full at any write, and a folder that goes away: the run says so, keeps what was whole, and ends or goes on."""
+
+from __future__ import annotations
+
+import os
+import resource
+import shutil
+import subprocess
+import tempfile
+import unittest
+from pathlib import Path
+
+from runs import LiveRun, checkpoints, differences, make_case, result, run, settings
+
+SHORT = settings(unsteady_cycles=0.25, checkpoint_steps=1)
+
+
+def largest_file(size: int) -> dict[str, object]:
+    """Options of subprocess.run: no file of the run may grow above `size` bytes. MPI then must not keep files of its own."""
+    return {
+        "preexec_fn": lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (size, size)),
+        "env": os.environ | {"OMPI_MCA_ess_singleton_isolated": "1"},
+    }
+
+
+class Disk(unittest.TestCase):
+    def setUp(self) -> None:
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.folder = Path(temporary.name)
+        make_case(self.folder)
+        self.full, self.part = self.folder / "full", self.folder / "part"
+
+    def full_run(self) -> None:
+        done = run(self.folder, self.full, *SHORT)
+        self.assertEqual(done.returncode, 0, done.stderr)
+
+    def assert_says_why(self, done: subprocess.CompletedProcess[str]) -> None:
+        self.assertEqual(done.returncode, 1, done.stderr)
+        self.assertEqual(done.stderr.count("alphadot: error"), 1, done.stderr)
+        self.assertNotIn("internal error", done.stderr)
+        self.assertRegex(done.stderr, "File too large|No space left|check free space")
+
+    def assert_kept_what_was_announced(self, done: subprocess.CompletedProcess[str]) -> None:
+        """The last announced checkpoint is whole, no part of a file is left, and the run can go on."""
+        self.assertEqual(list(self.part.glob("*.part")), [])
+        announced = [line.split()[1] for line in done.stderr.splitlines() if line.startswith("checkpoint ")]
+        self.assertEqual([file.name for file in checkpoints(self.part)], announced[-2:])
+        again = run(self.folder, self.part, "--restart", *SHORT)
+        self.assertEqual(again.returncode, 0, again.stderr)
+        self.assertNotIn("not taken", again.stderr)
+        self.assertEqual(differences(self.full, self.part), [])
+
+    def test_files_that_may_not_grow(self) -> None:
+        self.full_run()
+        sizes = sorted({file.stat().st_size for file in self.full.iterdir()})
+        # Each file in turn is the first that does not fit; in a checkpoint, at several places in it.
+        for limit in {0, 500, *(size - 1 for size in sizes), *(sizes[-1] * part // 5 for part in range(1, 5))}:
+            with self.subTest(limit=limit):
+                shutil.rmtree(self.part, ignore_errors=True)
+                done = run(self.folder, self.part, *SHORT, **largest_file(limit))
+                self.assert_says_why(done)
+                self.assert_kept_what_was_announced(done)
+
+    @unittest.skipUnless(os.geteuid() == 0, "only root can mount a small disk")
+    def test_small_disk(self) -> None:
+        self.full_run()
+        needed = sum(file.stat().st_size for file in self.full.iterdir())
+        for part in (0.02, 0.3, 0.6, 0.9):
+            with self.subTest(part=part):
+                self.part.mkdir()
+                size = f"size={max(4096, int(part * needed))}"
+                if subprocess.run(["mount", "-t", "tmpfs", "-o", size, "tmpfs", self.part], capture_output=True).returncode:
+                    self.skipTest("no small disk can be mounted here")
+                try:
+                    done = run(self.folder, self.part, *SHORT)
+                    self.assert_says_why(done)
+                    subprocess.run(["mount", "-o", "remount,size=100M", self.part], check=True)
+                    self.assert_kept_what_was_announced(done)
+                finally:
+                    subprocess.run(["umount", "--lazy", self.part], check=True)
+                    self.part.rmdir()
+
+    def test_a_case_may_go_on_without_checkpoints(self) -> None:
+        self.full_run()
+        largest = max(file.stat().st_size for file in checkpoints(self.full))
+        go_on = settings(checkpoint_on_failure="continue")
+        done = run(self.folder, self.part, *SHORT, *go_on, **largest_file(largest - 1))
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("no checkpoint could be written, the run goes on", done.stderr)
+        self.assertEqual(result(self.part)["status"], "completed")
+        self.assertEqual((self.full / "history.csv").read_bytes(), (self.part / "history.csv").read_bytes())
+
+    def test_a_folder_that_vanishes(self) -> None:
+        live = LiveRun(self.folder, self.part, *settings(unsteady_cycles=10000, checkpoint_steps=20))
+        live.wait_for("checkpoint checkpoint_000002")
+        self.part.rename(self.folder / "elsewhere")
+        self.assertEqual(live.wait(), 1, live.text())
+        self.assertIn("No such file or directory", live.text())
+        self.assertGreaterEqual(len(checkpoints(self.folder / "elsewhere")), 2)
+
+
+if __name__ == "__main__":
+    unittest.main()
