@@ -181,8 +181,7 @@ class CaseReader {
     if (kind == MotionKind::table && c.motion.table_file.empty())
       complain_about({"motion.kind"}, motion + " needs motion.table_file");
     if (kind != MotionKind::none && norm(c.motion.rotation) != 0)
-      complain_about({"motion.rotation"}, "a steady rotation excludes " + motion,
-                     "leave out either of them");
+      complain_about({"motion.rotation"}, "a steady rotation excludes " + motion, "leave out either of them");
     if (c.reference.half_model && (c.motion.rotation.x != 0 || c.motion.rotation.z != 0))
       complain_about({"motion.rotation"}, "a half model can only rotate in pitch",
                      "set reference.model = \"full\"");

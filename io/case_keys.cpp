@@ -105,7 +105,8 @@ std::vector<CaseKey> make_keys() {
 
   Table(keys, "steady", &Case::steady)
       .key("scheme", &SteadySettings::scheme, WordValue{words_of<SchemeKind>}, "implicit scheme")
-      .key("sweeps", &SteadySettings::sweeps, count, "pairs of forward and backward passes of the block scheme")
+      .key("sweeps", &SteadySettings::sweeps, count,
+           "pairs of forward and backward passes of the block scheme")
       .key("cfl_start", &SteadySettings::cfl_start, positive, "first CFL number")
       .key("cfl_max", &SteadySettings::cfl_max, positive, "largest CFL number")
       .key("cfl_growth", &SteadySettings::cfl_growth, NumberValue{.from = 1, .to = 100},
