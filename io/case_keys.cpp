@@ -140,6 +140,15 @@ std::vector<CaseKey> make_keys() {
            "change of the out-of-phase moment between inner iterations, relative to it")
       .key("max_inner", &UnsteadySettings::max_inner, count, "limit of inner iterations a time step");
 
+  Table(keys, "derivatives", &Case::derivatives)
+      .key("method", &DerivativeSettings::method, WordValue{words_of<SensitivityMethod>},
+           "solver of the linear systems: GMRES, or the march of the block scheme")
+      .key("orders", &DerivativeSettings::orders, NumberValue{.above = 0, .to = 12},
+           "decades that the preconditioned linear residual must drop")
+      .key("restart", &DerivativeSettings::restart, IntegerValue{.from = 2, .to = 500},
+           "size of the Krylov space of GMRES")
+      .key("max_iterations", &DerivativeSettings::max_iterations, count, "limit of linear iterations");
+
   Table(keys, "output", &Case::output)
       .key("folder", &OutputSettings::folder, TextValue{}, "folder of the run")
       .default_is("runs/<name of the case file>")

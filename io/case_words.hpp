@@ -29,8 +29,10 @@ inline constexpr Word<LimiterKind> limiter[] = {{"venkatakrishnan", LimiterKind:
                                                 {"mlp_u2", LimiterKind::mlp_u2},
                                                 {"barth_jespersen", LimiterKind::barth_jespersen},
                                                 {"none", LimiterKind::none}};
-inline constexpr Word<SchemeKind> scheme[] = {
-    {"lu_sgs", SchemeKind::lu_sgs}, {"block_lu_sgs", SchemeKind::block_lu_sgs}, {"gmres", SchemeKind::gmres}};
+inline constexpr Word<SchemeKind> scheme[] = {{"lu_sgs", SchemeKind::lu_sgs},
+                                              {"block_lu_sgs", SchemeKind::block_lu_sgs}};
+inline constexpr Word<SensitivityMethod> sensitivity[] = {{"gmres", SensitivityMethod::gmres},
+                                                          {"march", SensitivityMethod::march}};
 inline constexpr Word<MotionKind> motion[] = {{"none", MotionKind::none},
                                               {"plunge", MotionKind::plunge},
                                               {"sway", MotionKind::sway},
@@ -58,6 +60,8 @@ inline constexpr Word<bool> model[] = {{"full", false}, {"half", true}};
 
 template <>
 inline constexpr std::span<const Word<FluxKind>> words_of<FluxKind> = words::flux;
+template <>
+inline constexpr std::span<const Word<SensitivityMethod>> words_of<SensitivityMethod> = words::sensitivity;
 template <>
 inline constexpr std::span<const Word<GradientKind>> words_of<GradientKind> = words::gradient;
 template <>

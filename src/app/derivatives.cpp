@@ -5,7 +5,9 @@
 #include <cmath>
 #include <vector>
 
+#include "analysis/avl.hpp"
 #include "analysis/derivatives.hpp"
+#include "analysis/jsbsim.hpp"
 #include "analysis/moment_center.hpp"
 #include "analysis/table.hpp"
 #include "app/flow_case.hpp"
@@ -13,6 +15,7 @@
 #include "core/error.hpp"
 #include "core/log.hpp"
 #include "core/timer.hpp"
+#include "io/case_words.hpp"
 #include "io/files.hpp"
 #include "solver/sensitivity.hpp"
 
@@ -53,7 +56,7 @@ std::vector<Sensitivity> solve(FlowCase& flow, const std::vector<Variable>& vari
   for (std::size_t i = 0; i < variables.size(); ++i)
     problems.push_back({std::string(name(variables[i])), change_of(variables[i], flow.settings().freestream),
                         rates_of.empty() ? std::span<const Primitive<Real>>{} : rates_of[i].field});
-  return solve_sensitivities(flow.iteration(), flow.conditions(), problems, SensitivityOptions{});
+  return solve_sensitivities(flow.iteration(), flow.conditions(), problems, flow.settings().derivatives);
 }
 
 void add_column(DerivativeSet& derivatives, Variable variable, const Sensitivity& solution,
@@ -91,6 +94,25 @@ DerivativeSet solve_all(FlowCase& flow) {
   return out;
 }
 
+/// The same numbers for people, spreadsheets, AVL's readers and JSBSim.
+void write_tables(const FlowCase& flow, const DerivativeSet& derivatives, const std::vector<TableRow>& rows) {
+  const Case& settings = flow.settings();
+  const FlightPoint point{settings.title, settings.reference, settings.freestream,
+                          coefficients(flow.steady_report().total, settings), derivatives};
+  const std::string stem = flow.folder() + "/derivatives";
+  replace_file_with(stem + ".csv", derivative_csv(rows, settings.reference));
+  replace_file_with(stem + ".st", avl_stability_text(point));
+  replace_file_with(stem + ".jsbsim.xml", jsbsim_aerodynamics(point));
+}
+
+void print_table(const Case& settings, const DerivativeSet& derivatives, const std::vector<TableRow>& rows) {
+  spdlog::info("\n{}", derivative_table(rows, settings.reference));
+  const auto& alpha = derivatives.at(Variable::alpha);
+  const auto margin = static_margin(alpha.CN, alpha.Cm);
+  spdlog::info("static margin {:.4f} lengths, neutral point x = {:.4f}", margin.value,
+               settings.reference.moment_center.x + margin.value * settings.reference.length);
+}
+
 }  // namespace
 
 RunStatus derivatives_verb(const CaseArguments& arguments, const Communicator& comm) {
@@ -111,19 +133,15 @@ RunStatus derivatives_verb(const CaseArguments& arguments, const Communicator& c
     spdlog::error("diverged: {}", error.what());
   }
 
-  const auto rows = rows_of(derivatives, "linear solve, k -> 0");
+  const auto rows = rows_of(
+      derivatives, fmt::format("linear solve, k -> 0, {}", word_of(flow.settings().derivatives.method)));
   Result result = flow.result(status);
   for (const auto& row : rows)
     result.derivatives[row.name] = {row.value.value, row.value.uncertainty, row.method};
   flow.write(result);
   if (!rows.empty()) {
-    comm.on_root([&] {
-      replace_file_with(flow.folder() + "/derivatives.csv", derivative_csv(rows, flow.settings().reference));
-    });
-    spdlog::info("\n{}", derivative_table(rows, flow.settings().reference));
-    const auto margin = static_margin(derivatives[Variable::alpha].CN, derivatives[Variable::alpha].Cm);
-    spdlog::info("static margin {:.4f} lengths, neutral point x = {:.4f}", margin.value,
-                 flow.settings().reference.moment_center.x + margin.value * flow.settings().reference.length);
+    comm.on_root([&] { write_tables(flow, derivatives, rows); });
+    print_table(flow.settings(), derivatives, rows);
   }
   flow.print(result);
   return status;

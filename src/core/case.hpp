@@ -13,7 +13,8 @@ namespace alphadot {
 enum class FluxKind { roe, van_leer, hllc };
 enum class GradientKind { least_squares, green_gauss };
 enum class LimiterKind { venkatakrishnan, mlp_u2, barth_jespersen, none };
-enum class SchemeKind { lu_sgs, block_lu_sgs, gmres };
+enum class SchemeKind { lu_sgs, block_lu_sgs };
+enum class SensitivityMethod { gmres, march };
 enum class MotionKind { none, plunge, sway, pitch, yaw, roll, flap, step_alpha, ramp_alpha, step_q, table };
 enum class TreatmentKind { field_velocity, rigid_grid, deforming_grid };
 
@@ -79,6 +80,14 @@ struct UnsteadySettings {
   int max_inner = 100;
 };
 
+/// How the linear systems behind the stability derivatives are solved.
+struct DerivativeSettings {
+  SensitivityMethod method = SensitivityMethod::gmres;
+  Real orders = 5;   ///< decades that the preconditioned residual must drop
+  int restart = 30;  ///< size of the Krylov space
+  int max_iterations = 300;
+};
+
 struct OutputSettings {
   std::string folder;   ///< default: runs/<name of the case file>
   bool flow = true;     ///< write flow.vtkhdf
@@ -109,6 +118,7 @@ struct Case {
   SteadySettings steady;
   MotionSettings motion;
   UnsteadySettings unsteady;
+  DerivativeSettings derivatives;
   OutputSettings output;
   CheckpointSettings checkpoint;
 };

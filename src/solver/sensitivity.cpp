@@ -35,12 +35,12 @@ template <int N>
 class Lockstep {
  public:
   Lockstep(ImplicitIteration& iteration, const Conditions<Real>& conditions,
-           std::span<const SensitivityProblem> problems, const SensitivityOptions& options,
+           std::span<const SensitivityProblem> problems, const DerivativeSettings& settings,
            const Vec3& center)
       : iteration_(iteration),
         comm_(iteration.communicator()),
         problems_(problems),
-        options_(options),
+        settings_(settings),
         cells_(static_cast<std::size_t>(iteration.discretization().domain().owned_cells)),
         tangent_(iteration.discretization(), comm_, iteration.flow(), conditions, center) {
     for (std::size_t k = 0; k < N; ++k) {
@@ -53,7 +53,7 @@ class Lockstep {
 
   std::array<Sensitivity, N> solve() {
     first_ = norms(residual());
-    if (options_.method == SensitivityMethod::march)
+    if (settings_.method == SensitivityMethod::march)
       march();
     else
       gmres();
@@ -146,13 +146,13 @@ class Lockstep {
 
   bool all_below(const std::array<Real, N>& values, const std::array<Real, N>& first) const {
     for (std::size_t k = 0; k < N; ++k)
-      if (values[k] > std::pow(10.0, -options_.orders) * first[k]) return false;
+      if (values[k] > std::pow(10.0, -settings_.orders) * first[k]) return false;
     return true;
   }
 
   /// U += -P^-1 (A U + b) until it is steady.
   void march() {
-    for (int count = 1; count <= options_.max_iterations; ++count) {
+    for (int count = 1; count <= settings_.max_iterations; ++count) {
       precondition();
       for (std::size_t k = 0; k < N; ++k) {
         ++results_[k].iterations;
@@ -168,15 +168,15 @@ class Lockstep {
   }
 
   void gmres() {
-    std::vector<KrylovSpace> spaces(N, KrylovSpace(cells_, options_.restart, comm_));
+    std::vector<KrylovSpace> spaces(N, KrylovSpace(cells_, settings_.restart, comm_));
     std::array<Real, N> left{}, start{};
-    for (int used = 0; used < options_.max_iterations;) {
+    for (int used = 0; used < settings_.max_iterations;) {
       if (used > 0) residual();
       precondition();
       for (std::size_t k = 0; k < N; ++k) left[k] = spaces[k].start(work_[k]);
       if (used == 0) start = left;
       if (all_below(left, start)) return;
-      while (!spaces[0].is_full() && used < options_.max_iterations && !all_below(left, start)) {
+      while (!spaces[0].is_full() && used < settings_.max_iterations && !all_below(left, start)) {
         typename Tangent<N>::Fields fields;
         for (std::size_t k = 0; k < N; ++k) fields[k] = spaces[k].direction();
         tangent_.apply(fields, {}, spans());
@@ -199,7 +199,7 @@ class Lockstep {
   ImplicitIteration& iteration_;
   const Communicator& comm_;
   std::span<const SensitivityProblem> problems_;
-  SensitivityOptions options_;
+  DerivativeSettings settings_;
   std::size_t cells_;
   Tangent<N> tangent_;
   std::array<Sensitivity, N> results_;
@@ -210,10 +210,10 @@ class Lockstep {
 
 template <int N>
 void solve_group(ImplicitIteration& iteration, const Conditions<Real>& conditions,
-                 std::span<const SensitivityProblem> problems, const SensitivityOptions& options,
+                 std::span<const SensitivityProblem> problems, const DerivativeSettings& settings,
                  std::vector<Sensitivity>& out) {
   for (auto& result :
-       Lockstep<N>(iteration, conditions, problems, options, iteration.moment_center()).solve())
+       Lockstep<N>(iteration, conditions, problems, settings, iteration.moment_center()).solve())
     out.push_back(std::move(result));
 }
 
@@ -221,14 +221,14 @@ void solve_group(ImplicitIteration& iteration, const Conditions<Real>& condition
 
 std::vector<Sensitivity> solve_sensitivities(ImplicitIteration& iteration, const Conditions<Real>& conditions,
                                              const std::vector<SensitivityProblem>& problems,
-                                             const SensitivityOptions& options) {
+                                             const DerivativeSettings& settings) {
   iteration.linearise(conditions, {.cfl = linear_cfl});
   std::vector<Sensitivity> out;
   for (std::size_t begin = 0; begin < problems.size();) {
     const auto group = std::span(problems).subspan(begin, std::min<std::size_t>(3, problems.size() - begin));
-    if (group.size() == 3) solve_group<3>(iteration, conditions, group, options, out);
-    if (group.size() == 2) solve_group<2>(iteration, conditions, group, options, out);
-    if (group.size() == 1) solve_group<1>(iteration, conditions, group, options, out);
+    if (group.size() == 3) solve_group<3>(iteration, conditions, group, settings, out);
+    if (group.size() == 2) solve_group<2>(iteration, conditions, group, settings, out);
+    if (group.size() == 1) solve_group<1>(iteration, conditions, group, settings, out);
     begin += group.size();
   }
   return out;

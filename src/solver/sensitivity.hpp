@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/case.hpp"
 #include "solver/implicit_iteration.hpp"
 #include "solver/tangent.hpp"
 
@@ -30,20 +31,11 @@ struct Sensitivity {
   int iterations = 0;
 };
 
-enum class SensitivityMethod { gmres, march };
-
-struct SensitivityOptions {
-  SensitivityMethod method = SensitivityMethod::gmres;
-  Real orders = 6;   ///< decades of the preconditioned residual
-  int restart = 30;  ///< size of the Krylov space
-  int max_iterations = 300;
-};
-
 /// Solves all problems, up to three at a time with one differentiated residual, preconditioned by (or, for
 /// `march`, iterated with) the implicit scheme of `iteration`, whose flow must be steady under `conditions`.
 /// Throws DivergedError when a march grows: the steady state then hides an unstable cell. Collective.
 std::vector<Sensitivity> solve_sensitivities(ImplicitIteration& iteration, const Conditions<Real>& conditions,
                                              const std::vector<SensitivityProblem>& problems,
-                                             const SensitivityOptions& options);
+                                             const DerivativeSettings& settings);
 
 }  // namespace alphadot

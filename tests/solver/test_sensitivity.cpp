@@ -20,7 +20,7 @@ constexpr Real decades = 10;
 
 class SensitivityTest : public testing::TestWithParam<SensitivityMethod> {
  protected:
-  SensitivityOptions options() const {
+  DerivativeSettings options() const {
     return {.method = GetParam(), .orders = decades, .max_iterations = 600};
   }
   const Communicator comm;
