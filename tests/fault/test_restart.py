@@ -44,8 +44,8 @@ class Restart(unittest.TestCase):
             (2, settings(unsteady_cycles=0.25)),  # shorter than a fit takes, to save time
             (1, settings(unsteady_cycles=0.25, space_freeze_orders=2)),
             (1, settings(unsteady_cycles=0.25, steady_scheme="lu_sgs")),
-            (1, settings(unsteady_cycles=0.5, motion_kind="pitch", motion_treatment="rigid_grid")),
-            (1, settings(unsteady_cycles=0.5, motion_kind="pitch", motion_treatment="deforming_grid")),
+            (1, settings(unsteady_cycles=0.25, motion_kind="pitch", motion_treatment="rigid_grid")),
+            (1, settings(unsteady_cycles=0.25, motion_kind="pitch", motion_treatment="deforming_grid")),
             (1, settings(motion_kind="step_alpha", unsteady_duration=2, unsteady_steps=15)),
         ):
             with self.subTest(ranks=ranks, arguments=arguments):

@@ -12,6 +12,7 @@
 #include "io/case_difference.hpp"
 #include "io/case_file.hpp"
 #include "io/checkpoint_folder.hpp"
+#include "io/files.hpp"
 #include "io/seal.hpp"
 #include "io/temporary_folder.hpp"
 #include "support/box_mesh.hpp"
@@ -78,6 +79,8 @@ class CheckpointTest : public testing::Test {
 };
 
 TEST_F(CheckpointTest, ComesBackBitForBit) {
+  comm.on_root([] { make_run_folder(ALPHADOT_SAMPLES); });
+  write(std::string(ALPHADOT_SAMPLES) + "/checkpoint_" + std::to_string(comm.size()) + ".vtkhdf");
   write(path);
   std::vector<Five<Real>> flow(static_cast<std::size_t>(domain.owned_cells)), before = flow;
   file.read_fields(path, {{"level_before", before}, {"flow", flow}});

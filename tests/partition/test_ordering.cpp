@@ -149,7 +149,9 @@ TEST(Ordering, PutsEveryCellAfterItsUpstreamNeighbours) {
   const auto place = places(order);
   for (Index cell = 0; cell < graph.rows(); ++cell)
     for (const Index neighbour : graph[cell])
-      if (centers[neighbour].x < centers[cell].x) EXPECT_LT(place[neighbour], place[cell]);
+      if (centers[neighbour].x < centers[cell].x) {
+        EXPECT_LT(place[neighbour], place[cell]);
+      }
 }
 
 // In a shuffled order of n cells two neighbours are n / 3 places apart on average.
