@@ -39,8 +39,8 @@ def main() -> int:
 
     dice = random.Random(arguments.seed)
     ranks = arguments.ranks
-    # About a fifth of a second of work for each kill, so that there is always some left.
-    case = settings(unsteady_steps_per_cycle=max(100, 20 * arguments.kills), checkpoint_steps=1, checkpoint_keep=3)
+    # Enough work for several kills on a fast machine; a run that ends before them all is compared and begun anew.
+    case = settings(unsteady_steps_per_cycle=max(200, 40 * arguments.kills), checkpoint_steps=1, checkpoint_keep=3)
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         make_case(folder)
@@ -58,8 +58,11 @@ def main() -> int:
             end = time.monotonic() + delay
             while time.monotonic() < end and live.process.poll() is None:
                 time.sleep(0.001)
-            if live.process.poll() is not None:
-                break  # it reached the end before
+            if live.process.poll() is not None:  # it reached the end before
+                lost += [f"after {kills} kills: {change}" for change in differences(full, part)]
+                shutil.rmtree(part)
+                announced = 0
+                continue
             if dice.random() < 0.5 and live.rank_pids():
                 try:
                     os.kill(dice.choice(live.rank_pids()), signal.SIGKILL)
