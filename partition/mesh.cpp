@@ -138,7 +138,10 @@ class Validator {
           const GlobalIndex cell = sides.front() / 4;
           const GlobalIndex triangle = sides.back() - cell_sides;
           if (cells > 2) crowded.add(cell);
-          if (cells == 2 && !opposed(sides[0], sides[1])) overlapping.add(cell);
+          // An inverted cell has been reported as such: its wrong side is no second defect.
+          if (cells == 2 && !opposed(sides[0], sides[1]) && metrics(sides[0] / 4).volume > 0 &&
+              metrics(sides[1] / 4).volume > 0)
+            overlapping.add(cell);
           if (cells == 1 && triangles == 0) bare.add(cell);
           if (cells == 1 && triangles > 1) twice_covered.add(triangle);
           if (cells > 1 && triangles > 0) covered_inside.add(triangle);
