@@ -1,11 +1,11 @@
 #include "solver/jacobian.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <vector>
 
 #include "core/dual.hpp"
 #include "euler/boundary.hpp"
+#include "solver/wave_speed.hpp"
 
 namespace alphadot {
 
@@ -66,7 +66,7 @@ void face_terms(const Discretization& discretization, const FlowField<Real>& flo
     add_derivative(diagonal[left], flux, 0, area);
     store_derivative(matrix.right_of(face), flux, 5, area);
     const auto mean = Real{0.5} * (flow[left] + flow[right]);
-    const Real wave = area * (std::abs(dot(velocity(mean), normal) - speed) + sound_speed(mean, gamma));
+    const Real wave = area * spectral_radius(mean, normal, speed, gamma);
     wave_speed[left] += wave;
     if (right >= domain.owned_cells) continue;
     add_derivative(diagonal[right], flux, 5, -area);
@@ -92,8 +92,7 @@ void boundary_terms(const Discretization& discretization, const FlowField<Real>&
                           ? wall_flux(inside[4], normal, Dual<5>(speed))
                           : far_field_flux(inside, outside, normal, Dual<5>(speed), gamma);
     add_derivative(diagonal[face.cell], flux, 0, area);
-    wave_speed[face.cell] += area * (std::abs(dot(velocity(flow[face.cell]), normal) - speed) +
-                                     sound_speed(flow[face.cell], gamma));
+    wave_speed[face.cell] += area * spectral_radius(flow[face.cell], normal, speed, gamma);
   }
 }
 
