@@ -36,15 +36,10 @@ void write_flow_picture(const std::string& path, const Setup& setup, const FlowF
 
 void write_surface_picture(const std::string& path, const Setup& setup, const ImplicitIteration& iteration,
                            const Communicator& comm) {
-  const auto faces = setup.domain.boundary_faces.size();
-  std::vector<Real> pressure(faces), cp(faces);
-  for (std::size_t i = 0; i < faces; ++i) {
-    pressure[i] = iteration.residual().face_state(iteration.flow(), setup.domain.boundary_faces[i].cell,
-                                                  setup.domain.boundary_center[i],
-                                                  iteration.discretization().space().order)[4];
-    cp[i] = pressure_coefficient(pressure[i], setup.settings.freestream);
-  }
-  write_surface(path, setup.domain, {{"pressure", pressure}, {"cp", cp}}, comm);
+  const auto pressure = iteration.residual().boundary_pressures();
+  std::vector<Real> cp;
+  for (const Real p : pressure) cp.push_back(pressure_coefficient(p, setup.settings.freestream));
+  write_surface(path, setup.domain, {{"pressure", {pressure.begin(), pressure.end()}}, {"cp", cp}}, comm);
 }
 
 }  // namespace

@@ -5,6 +5,22 @@
 
 namespace alphadot {
 
+/// Pressure on a slip wall or symmetry plane that moves with the normal speed `grid_speed`, from the gas at
+/// it: the exact solution of their Riemann problem, a shock where the gas runs into the wall and a simple
+/// wave where it recedes. Linear: p + rho a (u.n - vg). `normal` points out of the gas.
+template <class T>
+T wall_pressure(const Primitive<T>& inside, const Vec3& normal, const T& grid_speed, Real gamma) {
+  using std::pow;
+  using std::sqrt;
+  const T mach = (dot(velocity(inside), normal) - grid_speed) / sound_speed(inside, gamma);
+  if (mach > T(0)) {
+    const T quarter = 0.25 * (gamma + 1) * mach;
+    return inside[4] * (1.0 + gamma * mach * (quarter + sqrt(1.0 + quarter * quarter)));
+  }
+  const T base = 1.0 + 0.5 * (gamma - 1) * mach;  // ratio of the speeds of sound
+  return base > T(0) ? T(inside[4] * pow(base, 2 * gamma / (gamma - 1))) : T(0);
+}
+
 /// Slip wall or symmetry plane: only pressure acts, and does work at the speed of the face.
 template <class T>
 Conserved<T> wall_flux(const T& pressure, const Vec3& normal, const T& grid_speed) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/case.hpp"
+#include "euler/boundary.hpp"
 #include "euler/flux.hpp"
 #include "partition/subdomain.hpp"
 
@@ -75,6 +76,15 @@ class Discretization {
 /// True for walls and planes that no flow crosses.
 inline bool is_impermeable(BoundaryKind kind) {
   return kind == BoundaryKind::wall || kind == BoundaryKind::sting || kind == BoundaryKind::symmetry;
+}
+
+/// Pressure on a boundary face from the state of the gas inside at it: walls answer its speed, at symmetry
+/// planes it meets its mirror image without a jump.
+template <class T>
+T boundary_pressure(BoundaryKind kind, const Primitive<T>& inside, const Vec3& normal, const T& grid_speed,
+                    Real gamma) {
+  const bool is_wall = kind == BoundaryKind::wall || kind == BoundaryKind::sting;
+  return is_wall ? wall_pressure(inside, normal, grid_speed, gamma) : inside[4];
 }
 
 }  // namespace alphadot

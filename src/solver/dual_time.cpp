@@ -18,36 +18,6 @@ Conserved<Real> turned(const Conserved<Real>& u, const Vec3& angle) {
   const Vec3 momentum = on_turned_axes({u[1], u[2], u[3]}, angle);
   return {{u[0], momentum.x, momentum.y, momentum.z, u[4]}};
 }
-
-/// Pressure on a wall, as a share of that of the gas at rest on it, once the wall moves into the gas at this
-/// normal Mach number: behind a shock, or in a simple wave when it recedes.
-Real pressure_ratio(Real mach, Real gamma) {
-  if (mach < 0) {
-    const Real base = std::max(1 + 0.5 * (gamma - 1) * mach, Real{0});
-    return std::pow(base, 2 * gamma / (gamma - 1));
-  }
-  const Real quarter = 0.25 * (gamma + 1) * mach;
-  return 1 + gamma * mach * (quarter + std::sqrt(1 + quarter * quarter));
-}
-
-/// What the start of the walls with the speeds of `grid` adds to the loads of every patch on this rank.
-std::vector<Load> starting_loads(const Discretization& discretization, const Residual<Real>& residual,
-                                 const FlowField<Real>& flow, const GridMotion<Real>& grid,
-                                 const Vec3& center) {
-  const Subdomain& domain = discretization.domain();
-  const Real gamma = discretization.gamma();
-  std::vector<Load> loads(domain.patch_names.size());
-  for (std::size_t i = 0; i < domain.boundary_faces.size(); ++i) {
-    const auto& face = domain.boundary_faces[i];
-    if (discretization.kind_of(face) != BoundaryKind::wall) continue;
-    const Vec3 at = domain.boundary_center[i], area = domain.boundary_normal[i];
-    const auto inside = residual.face_state(flow, face.cell, at, discretization.space().order);
-    const Real mach = -dot(grid.at(at), area) / (norm(area) * sound_speed(inside, gamma));
-    const Vec3 force = inside[4] * (pressure_ratio(mach, gamma) - 1) * area;
-    loads[static_cast<std::size_t>(face.patch)] += Load{force, cross(at - center, force)};
-  }
-  return loads;
-}
 }  // namespace
 
 DualTime::DualTime(ImplicitIteration& iteration, const Motion& motion, const Vec3& axis_point, Real time_step,
@@ -124,24 +94,10 @@ StepReport DualTime::before() const {
 StepReport DualTime::just_after_start() const {
   StepReport out = before();
   out.attitude = motion_.at(0);
-  const auto grid = field_velocity_conditions(out.attitude, motion_.wind(), axis_point_,
-                                              iteration_.discretization().gamma())
-                        .grid;
-  auto gains = starting_loads(iteration_.discretization(), iteration_.residual(), iteration_.flow(), grid,
-                              iteration_.moment_center());
-  std::vector<Real> buffer;
-  for (const Load& load : gains)
-    for (int i = 0; i < 3; ++i) buffer.insert(buffer.end(), {load.force[i], load.moment[i]});
-  iteration_.communicator().sum(std::span<Real>(buffer));
-  auto next = buffer.begin();
-  for (std::size_t patch = 0; patch < gains.size(); ++patch) {
-    for (int i = 0; i < 3; ++i) {
-      gains[patch].force[i] = *next++;
-      gains[patch].moment[i] = *next++;
-    }
-    out.report.loads[patch] += gains[patch];
-    out.report.total += gains[patch];
-  }
+  iteration_.evaluate(field_velocity_conditions(out.attitude, motion_.wind(), axis_point_,
+                                                iteration_.discretization().gamma()),
+                      iteration_.discretization().space().order);
+  out.report = report();
   return out;
 }
 

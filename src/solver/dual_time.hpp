@@ -54,9 +54,8 @@ class DualTime {
 
   /// The steady flow before the motion, as step 0.
   StepReport before() const;
-  /// The loads just after t = 0, when the motion sets in with a jump of velocity: a wall that starts with the
-  /// normal speed v sends a plane wave into the gas at rest on it, a simple wave when it recedes, else a
-  /// shock. (Piston theory without its linearisation; linear: dp = rho a v.)
+  /// The loads just after t = 0, when the motion sets in with a jump of velocity: every wall has started to
+  /// move, the gas on it has not (see wall_pressure).
   StepReport just_after_start() const;
 
   /// One step of BDF2 (backward Euler for the first). Throws DivergedError when a state turns unphysical.

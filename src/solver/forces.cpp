@@ -6,7 +6,7 @@ namespace alphadot {
 
 template <class T>
 std::vector<LoadOf<T>> wall_loads(const Discretization& discretization, const Residual<T>& residual,
-                                  const FlowField<T>& flow, int order, const Vec3& center) {
+                                  const Vec3& center) {
   const Subdomain& domain = discretization.domain();
   const Real free_stream_pressure = 1 / discretization.gamma();
   std::vector<LoadOf<T>> loads(domain.patch_names.size());
@@ -14,20 +14,18 @@ std::vector<LoadOf<T>> wall_loads(const Discretization& discretization, const Re
     const auto& face = domain.boundary_faces[i];
     if (discretization.kind_of(face) != BoundaryKind::wall) continue;
     const Vec3 at = domain.boundary_center[i];
-    const T pressure = residual.face_state(flow, face.cell, at, order)[4];
-    const auto force = (pressure - free_stream_pressure) * domain.boundary_normal[i];
+    const auto force = (residual.boundary_pressures()[i] - free_stream_pressure) * domain.boundary_normal[i];
     loads[face.patch] += LoadOf<T>{force, cross(at - center, force)};
   }
   return loads;
 }
 
-template std::vector<Load> wall_loads(const Discretization&, const Residual<Real>&, const FlowField<Real>&,
-                                      int, const Vec3&);
+template std::vector<Load> wall_loads(const Discretization&, const Residual<Real>&, const Vec3&);
 template std::vector<LoadOf<Dual<1>>> wall_loads(const Discretization&, const Residual<Dual<1>>&,
-                                                 const FlowField<Dual<1>>&, int, const Vec3&);
+                                                 const Vec3&);
 template std::vector<LoadOf<Dual<2>>> wall_loads(const Discretization&, const Residual<Dual<2>>&,
-                                                 const FlowField<Dual<2>>&, int, const Vec3&);
+                                                 const Vec3&);
 template std::vector<LoadOf<Dual<3>>> wall_loads(const Discretization&, const Residual<Dual<3>>&,
-                                                 const FlowField<Dual<3>>&, int, const Vec3&);
+                                                 const Vec3&);
 
 }  // namespace alphadot

@@ -24,10 +24,11 @@ struct LoadOf {
 };
 using Load = LoadOf<Real>;
 
-/// Load of every patch that is a wall (zero for others): integral of (p - p_inf) n, moments about `center`.
+/// Load of every patch that is a wall (zero for others): integral of (p - p_inf) n, moments about `center`,
+/// with the pressures of the latest evaluation.
 /// Summed over this rank only; the sum over ranks is the caller's, together with its other numbers.
 template <class T>
 std::vector<LoadOf<T>> wall_loads(const Discretization& discretization, const Residual<T>& residual,
-                                  const FlowField<T>& flow, int order, const Vec3& center);
+                                  const Vec3& center);
 
 }  // namespace alphadot

@@ -73,9 +73,8 @@ class ImplicitIteration {
   Vec3 moment_center_;
   FlowField<Real> flow_;
   Residual<Real> residual_;
-  std::vector<Conserved<Real>> values_;  // [owned_cells]
-  std::vector<Primitive<Real>> update_;  // [owned_cells]; after advance(): the flow before it
-  int order_ = 1;
+  std::vector<Conserved<Real>> values_;      // [owned_cells]
+  std::vector<Primitive<Real>> update_;      // [owned_cells]; after advance(): the flow before it
   std::atomic<GlobalIndex> iterations_ = 0;  // read by the watchdog's thread
 };
 

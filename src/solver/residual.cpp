@@ -10,7 +10,9 @@ namespace alphadot {
 
 template <class T>
 Residual<T>::Residual(const Discretization& discretization, const Communicator& comm)
-    : discretization_(discretization), reconstruction_(discretization, comm) {}
+    : discretization_(discretization),
+      reconstruction_(discretization, comm),
+      boundary_pressures_(discretization.domain().boundary_faces.size()) {}
 
 template <class T>
 void Residual<T>::evaluate(FlowField<T>& flow, const Conditions<T>& conditions, int order,
@@ -89,10 +91,11 @@ void Residual<T>::boundary_faces(const FlowField<T>& flow, const Conditions<T>& 
     const Vec3 center = domain.boundary_center[i];
     const T speed = conditions.boundary_speed(i, center, normal);
     const auto inside = face_state(flow, face.cell, center, order);
+    const BoundaryKind kind = discretization_.kind_of(face);
+    boundary_pressures_[i] = boundary_pressure(kind, inside, normal, speed, gamma);
     residual[face.cell] +=
-        area * (is_impermeable(discretization_.kind_of(face))
-                    ? wall_flux(inside[4], normal, speed)
-                    : far_field_flux(inside, conditions.free_stream, normal, speed, gamma));
+        area * (is_impermeable(kind) ? wall_flux(boundary_pressures_[i], normal, speed)
+                                     : far_field_flux(inside, conditions.free_stream, normal, speed, gamma));
   }
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "solver/conditions.hpp"
 #include "solver/discretization.hpp"
@@ -31,8 +32,11 @@ class Residual {
   Index fallback_faces() const { return fallback_faces_; }
   /// State of a cell carried to one of its faces.
   Primitive<T> face_state(const FlowField<T>& flow, Index cell, const Vec3& face_center, int order) const;
+  /// [boundary_faces] pressure in the latest evaluation: on walls and symmetry planes that which acts on
+  /// them, elsewhere that of the gas inside.
+  std::span<const T> boundary_pressures() const { return boundary_pressures_; }
 
-  std::size_t bytes() const { return reconstruction_.bytes(); }
+  std::size_t bytes() const { return reconstruction_.bytes() + boundary_pressures_.size() * sizeof(T); }
 
  private:
   void interior_faces(const FlowField<T>& flow, const Conditions<T>& conditions, int order, Index begin,
@@ -44,6 +48,7 @@ class Residual {
 
   const Discretization& discretization_;
   Reconstruction<T> reconstruction_;
+  std::vector<T> boundary_pressures_;
   Index fallback_faces_ = 0;
 };
 

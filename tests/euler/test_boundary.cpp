@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "euler/boundary.hpp"
+#include "exact_riemann.hpp"
 #include "samples.hpp"
 
 namespace alphadot {
@@ -32,6 +33,24 @@ TEST(Wall, IsThePhysicalFluxOfAGasThatMovesWithIt) {
     expect_near(wall_flux(w[4], normal, speed), physical_flux(w, normal, speed, g),
                 1e-13 * (1 + largest(conserved(w, g))));
   }
+}
+
+// By symmetry a wall is the middle of the Riemann problem between the gas and its mirror image.
+TEST(Wall, FeelsTheStarPressureOfTheGasAndItsMirrorImage) {
+  Samples samples(62);
+  for (int i = 0; i < 200; ++i) {
+    const Vec3 normal = samples.direction();
+    const Real speed = samples.between(-2, 2);
+    const auto w = samples.state();
+    const Real into = dot(velocity(w), normal) - speed;
+    if (into < -0.9 * 2 / (g - 1) * sound_speed(w, g)) continue;  // nearly a vacuum
+    const ExactRiemann exact({w[0], into, w[4]}, {w[0], -into, w[4]}, g);
+    EXPECT_NEAR(wall_pressure(w, normal, speed, g) / exact.star_pressure(), 1, 1e-10);
+  }
+}
+
+TEST(Wall, FeelsNothingOnceTheGasCannotFollow) {
+  EXPECT_EQ(wall_pressure<Real>({{1, 0, 0, -5.1, 1 / g}}, {0, 0, 1}, 0, g), 0);
 }
 
 TEST(Wall, DoesTheWorkOfItsPressure) {

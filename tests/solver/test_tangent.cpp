@@ -48,7 +48,7 @@ struct Moved {
     const int order = box.discretization.space().order;
     Residual<Real> residual(box.discretization, box.comm);
     residual.evaluate(flow, conditions, order, values);
-    loads = wall_loads(box.discretization, residual, flow, order, center);
+    loads = wall_loads(box.discretization, residual, center);
   }
   std::vector<Conserved<Real>> values;
   std::vector<Load> loads;

@@ -28,7 +28,7 @@ std::vector<Load> loads(const BoxSettings& settings, const BoxSides& sides, int 
   Residual<Real> residual(box.discretization, comm);
   std::vector<Conserved<Real>> values(box.cells());
   residual.evaluate(flow, {free_stream(Vec3{}, gamma_air), {}}, order, values);
-  auto out = wall_loads(box.discretization, residual, flow, order, center);
+  auto out = wall_loads(box.discretization, residual, center);
   for (auto& load : out)
     for (Real* entry :
          {&load.force.x, &load.force.y, &load.force.z, &load.moment.x, &load.moment.y, &load.moment.z})
