@@ -1,68 +1,103 @@
 #include "solver/block_lu_sgs.hpp"
 
 #include <algorithm>
-#include <experimental/simd>
 
 #include "solver/jacobian.hpp"
 
 namespace alphadot {
 
+namespace {
+constexpr std::size_t most_together = 4;  // right-hand sides whose sums stay in registers
+}
+
+BlockLuSgs::System::System(const Subdomain& domain, const Communicator& comm)
+    : right(static_cast<std::size_t>(domain.owned_cells)), update(domain, comm, HaloWidth::faces) {}
+
 BlockLuSgs::BlockLuSgs(const Discretization& discretization, const Communicator& comm, int sweeps)
-    : discretization_(discretization),
-      sweeps_(sweeps),
-      matrix_(discretization.domain()),
-      update_(discretization.domain(), comm, HaloWidth::faces) {}
+    : discretization_(discretization), comm_(comm), sweeps_(sweeps), matrix_(discretization.domain()) {
+  systems_.push_back(std::make_unique<System>(discretization.domain(), comm));
+}
 
 void BlockLuSgs::linearise(const FlowField<Real>& flow, const Conditions<Real>& conditions,
                            const TimeTerms& time) {
   assemble_jacobian(discretization_, flow, conditions, time, matrix_);
+  matrix_.scale_rows();
 }
 
-namespace {
-
-using Lanes = std::experimental::fixed_size_simd<float, 8>;
-
-/// y + A x, column by column. A column is loaded with the three numbers behind it, which land in unused
-/// lanes.
-inline Lanes multiply_add(Lanes y, const Block& a, const float* x) {
-  for (int column = 0; column < 5; ++column)
-    y += Lanes(&a[5 * column], std::experimental::element_aligned) * Lanes(x[column]);
-  return y;
-}
-
-}  // namespace
-
-void BlockLuSgs::sweep(Direction direction, std::span<const Conserved<Real>> residual) {
+template <int N>
+void BlockLuSgs::sweep(Direction direction) {
   const Index cells = discretization_.domain().owned_cells;
+  SweepState* update[N];
+  const SweepState* right[N];
+  for (std::size_t k = 0; k < N; ++k) {
+    update[k] = systems_[k]->update.data();
+    right[k] = systems_[k]->right.data();
+  }
   for (Index i = 0; i < cells; ++i) {
     const Index row = direction == Direction::forward ? i : cells - 1 - i;
-    const auto columns = matrix_.columns(row);
-    const auto blocks = matrix_.blocks(row);
-    Lanes sums[2] = {0, 0};  // two, so that one product need not wait for the other
-    for (std::size_t j = 0; j < columns.size(); ++j)
-      sums[j % 2] = multiply_add(sums[j % 2], blocks[j], update_[columns[j]].v);
-    SweepState right;
-    (sums[0] + sums[1]).copy_to(right.v, std::experimental::vector_aligned);
-    for (int k = 0; k < 5; ++k) right.v[k] = -static_cast<float>(residual[row][k]) - right.v[k];
-    multiply_add(0, matrix_.inverse_diagonal(row), right.v)
-        .copy_to(update_[row].v, std::experimental::vector_aligned);
+    const auto& columns = matrix_.columns(row);
+    const auto& blocks = matrix_.blocks(row);
+    for (std::size_t k = 0; k < N; ++k) {
+      Lanes products[BlockMatrix::neighbours];  // apart, so that none waits for another
+      for (std::size_t j = 0; j < columns.size(); ++j)
+        products[j] = multiply_add(0, blocks[j], update[k][columns[j]].v);
+      const Lanes sum = (products[0] + products[1]) + (products[2] + products[3]);
+      (Lanes(right[k][row].v, std::experimental::vector_aligned) - sum)
+          .copy_to(update[k][row].v, std::experimental::vector_aligned);
+    }
   }
 }
 
-void BlockLuSgs::solve(std::span<const Conserved<Real>> residual, std::span<Primitive<Real>> update) {
-  std::ranges::fill(update_.values(), SweepState{});
-  for (int pass = 0; pass < sweeps_; ++pass) {
-    if (pass > 0) update_.exchange();
-    sweep(Direction::forward, residual);
-    update_.exchange();
-    sweep(Direction::backward, residual);
+template <int N>
+void BlockLuSgs::solve_together(std::span<const LinearSystem> systems) {
+  const auto exchange = [&] {
+    for (std::size_t k = 0; k < N; ++k) systems_[k]->update.start_exchange();
+    for (std::size_t k = 0; k < N; ++k) systems_[k]->update.finish_exchange();
+  };
+  for (std::size_t k = 0; k < N; ++k) {
+    std::ranges::fill(systems_[k]->update.values(), SweepState{});
+    for (std::size_t row = 0; row < systems_[k]->right.size(); ++row) {
+      float minus_residual[5];
+      for (int i = 0; i < 5; ++i) minus_residual[i] = -static_cast<float>(systems[k].residual[row][i]);
+      multiply_add(0, matrix_.inverse_diagonal(static_cast<Index>(row)), minus_residual)
+          .copy_to(systems_[k]->right[row].v, std::experimental::vector_aligned);
+    }
   }
-  for (std::size_t cell = 0; cell < update.size(); ++cell)
-    for (int k = 0; k < 5; ++k) update[cell][k] = update_[static_cast<Index>(cell)].v[k];
+  for (int pass = 0; pass < sweeps_; ++pass) {
+    if (pass > 0) exchange();
+    sweep<N>(Direction::forward);
+    exchange();
+    sweep<N>(Direction::backward);
+  }
+  for (std::size_t k = 0; k < N; ++k)
+    for (std::size_t cell = 0; cell < systems_[k]->right.size(); ++cell)
+      for (int i = 0; i < 5; ++i)
+        systems[k].update[cell][i] = systems_[k]->update[static_cast<Index>(cell)].v[i];
+}
+
+void BlockLuSgs::solve(std::span<const LinearSystem> systems) {
+  while (systems_.size() < std::min(systems.size(), most_together))
+    systems_.push_back(std::make_unique<System>(discretization_.domain(), comm_));
+  for (std::size_t begin = 0; begin < systems.size(); begin += most_together) {
+    const auto group = systems.subspan(begin, std::min(most_together, systems.size() - begin));
+    if (group.size() == 1) solve_together<1>(group);
+    if (group.size() == 2) solve_together<2>(group);
+    if (group.size() == 3) solve_together<3>(group);
+    if (group.size() == 4) solve_together<4>(group);
+  }
 }
 
 std::size_t BlockLuSgs::bytes() const {
-  return matrix_.bytes() + update_.bytes();
+  std::size_t out = matrix_.bytes();
+  for (const auto& system : systems_)
+    out += system->right.size() * sizeof(SweepState) + system->update.bytes();
+  return out;
+}
+
+Real BlockLuSgs::halo_seconds() const {
+  Real out = 0;
+  for (const auto& system : systems_) out += system->update.halo().wait_seconds();
+  return out;
 }
 
 }  // namespace alphadot

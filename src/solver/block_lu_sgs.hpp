@@ -1,6 +1,7 @@
 // Block LU-SGS: symmetric Gauss-Seidel sweeps over the stored first-order Jacobian.
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "solver/block_matrix.hpp"
@@ -15,7 +16,8 @@ struct alignas(32) SweepState {
 
 /// Jacobian of the first-order flux, exact for the flux in use (forward differentiation), swept forward and
 /// backward. Across ranks the sweeps are hybrid: Gauss-Seidel within a rank, with halos renewed before every
-/// direction.
+/// direction. Right-hand sides that are solved together share the reading of the matrix, which is what a
+/// sweep costs.
 class BlockLuSgs final : public LinearSolver {
  public:
   /// `sweeps`: pairs of a forward and a backward pass in each solve.
@@ -23,18 +25,30 @@ class BlockLuSgs final : public LinearSolver {
 
   void linearise(const FlowField<Real>& flow, const Conditions<Real>& conditions,
                  const TimeTerms& time) override;
-  void solve(std::span<const Conserved<Real>> residual, std::span<Primitive<Real>> update) override;
+  void solve(std::span<const LinearSystem> systems) override;
   std::size_t bytes() const override;
-  Real halo_seconds() const override { return update_.halo().wait_seconds(); }
+  Real halo_seconds() const override;
 
  private:
   enum class Direction { forward, backward };
-  void sweep(Direction direction, std::span<const Conserved<Real>> residual);
+  /// Relaxes every row once, for the first N right-hand sides.
+  template <int N>
+  void sweep(Direction direction);
+  template <int N>
+  void solve_together(std::span<const LinearSystem> systems);
+
+  /// One right-hand side: minus the residual times the inverse diagonal, [owned_cells], and its solution.
+  struct System {
+    System(const Subdomain& domain, const Communicator& comm);
+    std::vector<SweepState> right;
+    CellField<SweepState> update;
+  };
 
   const Discretization& discretization_;
+  const Communicator& comm_;
   int sweeps_;
   BlockMatrix matrix_;
-  CellField<SweepState> update_;
+  std::vector<std::unique_ptr<System>> systems_;  // as many as were ever solved together
 };
 
 }  // namespace alphadot

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <experimental/simd>
 #include <span>
 #include <vector>
 
@@ -12,33 +13,57 @@ namespace alphadot {
 /// 5 x 5, column by column.
 using Block = std::array<float, 25>;
 
-/// One row a cell: the inverse of its diagonal block and one block for every neighbour, in the order of
-/// Subdomain::cell_faces. 500 bytes a cell. Reading a few floats beyond a block is safe.
+/// Five numbers in a vector register; the last three lanes are without meaning.
+using Lanes = std::experimental::fixed_size_simd<float, 8>;
+
+/// y + A x, column by column. A column is loaded with the three numbers behind it, which land in unused
+/// lanes.
+inline Lanes multiply_add(Lanes y, const Block& a, const float* x) {
+  for (std::size_t column = 0; column < 5; ++column)
+    y += Lanes(&a[5 * column], std::experimental::element_aligned) * Lanes(x[column]);
+  return y;
+}
+
+/// One row a cell: the inverse of its diagonal block and four blocks for the neighbours across its faces, in
+/// the order of Subdomain::cell_faces. Faces of the boundary leave a block of zeros at the end of the row,
+/// whose column is the row itself. 500 bytes a cell. Reading a few floats beyond a block is safe.
 class BlockMatrix {
  public:
+  static constexpr std::size_t neighbours = 4;
+  using Columns = std::array<Index, neighbours>;
+  using Blocks = std::array<Block, neighbours>;
+
   explicit BlockMatrix(const Subdomain& domain);
 
-  Block& inverse_diagonal(Index row) { return inverse_diagonal_[row]; }
+  Block& inverse_diagonal(Index row) { return inverse_diagonal_[static_cast<std::size_t>(row)]; }
   /// Blocks of a face: derivative of the left cell's residual with respect to the right state, and the other
   /// way round (absent where the right cell is a ghost).
-  Block& right_of(Index face) { return blocks_[slot_[face][0]]; }
-  Block& left_of(Index face) { return blocks_[slot_[face][1]]; }
+  Block& right_of(Index face) { return at(slots_[static_cast<std::size_t>(face)][0]); }
+  Block& left_of(Index face) { return at(slots_[static_cast<std::size_t>(face)][1]); }
 
-  std::span<const Index> columns(Index row) const {
-    return {columns_.data() + begin_[row], static_cast<std::size_t>(begin_[row + 1] - begin_[row])};
-  }
-  std::span<const Block> blocks(Index row) const {
-    return {blocks_.data() + begin_[row], static_cast<std::size_t>(begin_[row + 1] - begin_[row])};
-  }
-  const Block& inverse_diagonal(Index row) const { return inverse_diagonal_[row]; }
+  const Columns& columns(Index row) const { return columns_[static_cast<std::size_t>(row)]; }
+  const Blocks& blocks(Index row) const { return blocks_[static_cast<std::size_t>(row)]; }
+  const Block& inverse_diagonal(Index row) const { return inverse_diagonal_[static_cast<std::size_t>(row)]; }
+
+  /// Multiplies the neighbours' blocks of every row by its inverse diagonal block, so that a relaxation of
+  /// the row needs no further product.
+  void scale_rows();
 
   std::size_t bytes() const;
 
  private:
-  std::vector<Index> begin_, columns_;
-  std::vector<Block> blocks_, inverse_diagonal_;
-  std::vector<std::array<Index, 2>>
-      slot_;  // [faces] position in blocks_ seen from left and from right; -1: none
+  struct Slot {
+    Index row = -1;
+    Index neighbour = -1;
+  };
+  Block& at(Slot slot) {
+    return blocks_[static_cast<std::size_t>(slot.row)][static_cast<std::size_t>(slot.neighbour)];
+  }
+
+  std::vector<Columns> columns_;
+  std::vector<Blocks> blocks_;              // one row more than there are
+  std::vector<Block> inverse_diagonal_;     // one more than there are rows
+  std::vector<std::array<Slot, 2>> slots_;  // [faces] seen from left and from right
 };
 
 /// Inverse of a 5 x 5 matrix given and returned column by column.

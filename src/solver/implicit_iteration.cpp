@@ -24,13 +24,12 @@ void ImplicitIteration::set_uniform(const Primitive<Real>& state) {
 }
 
 void ImplicitIteration::evaluate(const Conditions<Real>& conditions, int order) {
-  order_ = order;
   residual_.evaluate(flow_, conditions, order, values_);
 }
 
 FlowReport ImplicitIteration::report() const {
   FlowReport out;
-  out.loads = wall_loads(discretization_, residual_, flow_, order_, moment_center_);
+  out.loads = wall_loads(discretization_, residual_, moment_center_);
   std::vector<Real> buffer{0, 0, static_cast<Real>(residual_.fallback_faces())};
   for (const auto& value : values_) {
     buffer[0] += value[0] * value[0];
@@ -58,7 +57,8 @@ FlowReport ImplicitIteration::report() const {
 
 Index ImplicitIteration::advance() {
   ++iterations_;
-  solver_->solve(values_, update_);
+  const LinearSystem system{values_, update_};
+  solver_->solve({&system, 1});
   Index capped = 0;
   for (Index cell = 0; cell < discretization_.domain().owned_cells; ++cell) {
     const Primitive<Real> before = flow_[cell];

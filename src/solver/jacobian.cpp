@@ -13,28 +13,31 @@ namespace {
 
 using Matrix = std::array<Real, 25>;  // column by column
 
-/// Adds area * d(flux)/d(state) to `sum`, for the five directions that begin at `first`.
-template <int N>
-void add_derivative(Matrix& sum, const Conserved<Dual<N>>& flux, int first, Real area) {
+using State = Primitive<Dual<5>>;
+using Flux = Conserved<Dual<5>>;
+
+/// Adds area * d(flux)/d(state) to `sum`.
+void add_derivative(Matrix& sum, const Flux& flux, Real area) {
   for (int column = 0; column < 5; ++column)
-    for (int row = 0; row < 5; ++row) sum[5 * column + row] += area * flux[row].d[first + column];
+    for (int row = 0; row < 5; ++row) sum[5 * column + row] += area * flux[row].d[column];
 }
 
-template <int N>
-void store_derivative(Block& block, const Conserved<Dual<N>>& flux, int first, Real area) {
+void store_derivative(Block& block, const Flux& flux, Real area) {
   for (int column = 0; column < 5; ++column)
     for (int row = 0; row < 5; ++row)
-      block[5 * column + row] = static_cast<float>(area * flux[row].d[first + column]);
+      block[5 * column + row] = static_cast<float>(area * flux[row].d[column]);
 }
 
-/// The state with its entries marked as the independent variables first .. first + 4.
-template <int N>
-Primitive<Dual<N>> independent(const Primitive<Real>& w, int first) {
-  Primitive<Dual<N>> out;
-  for (int i = 0; i < 5; ++i) {
-    out[i].v = w[i];
-    out[i].d[first + i] = 1;
-  }
+State constant(const Primitive<Real>& w) {
+  State out;
+  for (int i = 0; i < 5; ++i) out[i] = w[i];
+  return out;
+}
+
+/// The state with its entries marked as the independent variables.
+State independent(const Primitive<Real>& w) {
+  State out = constant(w);
+  for (int i = 0; i < 5; ++i) out[i].d[i] = 1;
   return out;
 }
 
@@ -61,16 +64,18 @@ void face_terms(const Discretization& discretization, const FlowField<Real>& flo
     const Real area = norm(domain.face_normal[face]);
     const Vec3 normal = (1 / area) * domain.face_normal[face];
     const Real speed = conditions.face_speed(face, domain.face_center[face], normal);
-    const auto flux = numerical_flux(discretization.flux(), independent<10>(flow[left], 0),
-                                     independent<10>(flow[right], 5), normal, Dual<10>(speed));
-    add_derivative(diagonal[left], flux, 0, area);
-    store_derivative(matrix.right_of(face), flux, 5, area);
+    const State l = constant(flow[left]), r = constant(flow[right]);
+    const FluxModel& model = discretization.flux();
+    const Flux from_left = numerical_flux(model, independent(flow[left]), r, normal, Dual<5>(speed)),
+               from_right = numerical_flux(model, l, independent(flow[right]), normal, Dual<5>(speed));
+    add_derivative(diagonal[left], from_left, area);
+    store_derivative(matrix.right_of(face), from_right, area);
     const auto mean = Real{0.5} * (flow[left] + flow[right]);
     const Real wave = area * spectral_radius(mean, normal, speed, gamma);
     wave_speed[left] += wave;
     if (right >= domain.owned_cells) continue;
-    add_derivative(diagonal[right], flux, 5, -area);
-    store_derivative(matrix.left_of(face), flux, 0, -area);
+    add_derivative(diagonal[right], from_right, -area);
+    store_derivative(matrix.left_of(face), from_left, -area);
     wave_speed[right] += wave;
   }
 }
@@ -80,19 +85,19 @@ void boundary_terms(const Discretization& discretization, const FlowField<Real>&
                     std::vector<Real>& wave_speed) {
   const Subdomain& domain = discretization.domain();
   const Real gamma = discretization.gamma();
-  Primitive<Dual<5>> outside;
-  for (int i = 0; i < 5; ++i) outside[i] = conditions.free_stream[i];
+  const State outside = constant(conditions.free_stream);
   for (std::size_t i = 0; i < domain.boundary_faces.size(); ++i) {
     const auto& face = domain.boundary_faces[i];
     const Real area = norm(domain.boundary_normal[i]);
     const Vec3 normal = (1 / area) * domain.boundary_normal[i];
-    const Real speed = conditions.boundary_speed(i, domain.boundary_center[i], normal);
-    const auto inside = independent<5>(flow[face.cell], 0);
-    const auto flux = is_impermeable(discretization.kind_of(face))
-                          ? wall_flux(inside[4], normal, Dual<5>(speed))
-                          : far_field_flux(inside, outside, normal, Dual<5>(speed), gamma);
-    add_derivative(diagonal[face.cell], flux, 0, area);
-    wave_speed[face.cell] += area * spectral_radius(flow[face.cell], normal, speed, gamma);
+    const Dual<5> speed = conditions.boundary_speed(i, domain.boundary_center[i], normal);
+    const State inside = independent(flow[face.cell]);
+    const BoundaryKind kind = discretization.kind_of(face);
+    const auto flux = is_impermeable(kind)
+                          ? wall_flux(boundary_pressure(kind, inside, normal, speed, gamma), normal, speed)
+                          : far_field_flux(inside, outside, normal, speed, gamma);
+    add_derivative(diagonal[face.cell], flux, area);
+    wave_speed[face.cell] += area * spectral_radius(flow[face.cell], normal, speed.v, gamma);
   }
 }
 

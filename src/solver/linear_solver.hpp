@@ -17,6 +17,12 @@ struct TimeTerms {
   Real inverse_step = 0;  ///< 3 / (2 dt) in dual time, else 0
 };
 
+/// One right-hand side and its solution, both [owned_cells].
+struct LinearSystem {
+  std::span<const Conserved<Real>> residual;
+  std::span<Primitive<Real>> update;
+};
+
 /// An approximate inverse of V d/dt + dR/dW, in primitive variables.
 class LinearSolver {
  public:
@@ -24,8 +30,9 @@ class LinearSolver {
   /// Linearises about `flow` (its ghosts current). May be skipped for a few iterations.
   virtual void linearise(const FlowField<Real>& flow, const Conditions<Real>& conditions,
                          const TimeTerms& time) = 0;
-  /// Solves (time terms + dR/dW) update = -residual roughly. `update` is [owned_cells]. Communicates.
-  virtual void solve(std::span<const Conserved<Real>> residual, std::span<Primitive<Real>> update) = 0;
+  /// Solves (time terms + dR/dW) update = -residual roughly, for several right-hand sides at once.
+  /// Communicates.
+  virtual void solve(std::span<const LinearSystem> systems) = 0;
   virtual std::size_t bytes() const = 0;
   virtual Real halo_seconds() const = 0;  ///< waited for halos so far
 };

@@ -60,17 +60,21 @@ Conserved<Real> LuSgs::off_diagonal(Index row) const {
   return sum;
 }
 
-void LuSgs::solve(std::span<const Conserved<Real>> residual, std::span<Primitive<Real>> update) {
+void LuSgs::solve(std::span<const LinearSystem> systems) {
+  for (const auto& system : systems) solve_one(system);
+}
+
+void LuSgs::solve_one(const LinearSystem& system) {
   const Index cells = discretization_.domain().owned_cells;
   std::ranges::fill(update_.values(), Conserved<Real>{});
   const auto relax = [&](Index row) {
-    update_[row] = (-1 / diagonal_[row]) * (residual[row] + off_diagonal(row));
+    update_[row] = (-1 / diagonal_[row]) * (system.residual[row] + off_diagonal(row));
   };
   for (Index row = 0; row < cells; ++row) relax(row);
   update_.exchange();
   for (Index row = cells - 1; row >= 0; --row) relax(row);
   for (Index cell = 0; cell < cells; ++cell)
-    update[cell] = primitive_change((*flow_)[cell], update_[cell], discretization_.gamma());
+    system.update[cell] = primitive_change((*flow_)[cell], update_[cell], discretization_.gamma());
 }
 
 std::size_t LuSgs::bytes() const {

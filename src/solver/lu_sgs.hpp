@@ -18,11 +18,12 @@ class LuSgs final : public LinearSolver {
 
   void linearise(const FlowField<Real>& flow, const Conditions<Real>& conditions,
                  const TimeTerms& time) override;
-  void solve(std::span<const Conserved<Real>> residual, std::span<Primitive<Real>> update) override;
+  void solve(std::span<const LinearSystem> systems) override;
   std::size_t bytes() const override;
   Real halo_seconds() const override { return update_.halo().wait_seconds(); }
 
  private:
+  void solve_one(const LinearSystem& system);
   /// Sum over the neighbours of `row` of the off-diagonal terms.
   Conserved<Real> off_diagonal(Index row) const;
 

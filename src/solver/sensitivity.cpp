@@ -141,7 +141,9 @@ class Lockstep {
 
   /// work_ = -P^-1 images_.
   void precondition() {
-    for (std::size_t k = 0; k < N; ++k) iteration_.linear_solver().solve(images_[k], work_[k]);
+    std::array<LinearSystem, N> systems;
+    for (std::size_t k = 0; k < N; ++k) systems[k] = {images_[k], work_[k]};
+    iteration_.linear_solver().solve(systems);
   }
 
   bool all_below(const std::array<Real, N>& values, const std::array<Real, N>& first) const {

@@ -67,8 +67,7 @@ void Tangent<N>::apply(const Fields& fields, const std::array<ConditionsChange, 
 
 template <int N>
 std::array<std::vector<Load>, N> Tangent<N>::loads() const {
-  const auto duals =
-      wall_loads(discretization_, residual_, flow_, discretization_.space().order, moment_center_);
+  const auto duals = wall_loads(discretization_, residual_, moment_center_);
   std::array<std::vector<Load>, N> out;
   for (std::size_t k = 0; k < N; ++k)
     for (const auto& load : duals) {

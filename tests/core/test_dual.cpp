@@ -107,7 +107,7 @@ TEST_F(Dual2, GoesThroughVectors) {
 
 TEST(Dual, ConstantsHaveNoDerivative) {
   const Dual<3> c = 2.5;
-  for (const Real slope : c.d) EXPECT_EQ(slope, 0);
+  for (int k = 0; k < 3; ++k) EXPECT_EQ(c.d[k], 0);
   EXPECT_EQ(value_of(c), 2.5);
   EXPECT_EQ(value_of(2.5), 2.5);
 }

@@ -28,7 +28,8 @@ class BlockLuSgsTest : public testing::TestWithParam<std::tuple<FluxKind, bool>>
     BlockLuSgs solver(box.discretization, box.comm, sweeps);
     solver.linearise(flow, conditions, time);
     std::vector<Primitive<Real>> update(box.cells());
-    solver.solve(right, update);
+    const LinearSystem system{right, update};
+    solver.solve({&system, 1});
     return update;
   }
   /// What is left of the system, relative to its right-hand side.
