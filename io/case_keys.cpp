@@ -145,8 +145,8 @@ std::vector<CaseKey> make_keys() {
            "solver of the linear systems: GMRES, or the march of the block scheme")
       .key("orders", &DerivativeSettings::orders, NumberValue{.above = 0, .to = 12},
            "decades that the preconditioned linear residual must drop")
-      .key("restart", &DerivativeSettings::restart, IntegerValue{.from = 2, .to = 500},
-           "size of the Krylov space of GMRES")
+      .key("directions", &DerivativeSettings::directions, IntegerValue{.from = 2, .to = 1000},
+           "of the Krylov space of GMRES, which all right-hand sides share; 40 bytes a cell each")
       .key("max_iterations", &DerivativeSettings::max_iterations, count, "limit of linear iterations");
 
   Table(keys, "output", &Case::output)

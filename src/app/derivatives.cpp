@@ -50,13 +50,14 @@ bool is_rate(Variable variable) {
 }
 
 /// Solves for some variables; `rates_of` holds the solutions whose rates these are, or is empty.
-std::vector<Sensitivity> solve(FlowCase& flow, const std::vector<Variable>& variables,
+std::vector<Sensitivity> solve(SensitivitySolver& solver, const FreestreamSettings& stream,
+                               const std::vector<Variable>& variables,
                                const std::vector<Sensitivity>& rates_of) {
   std::vector<SensitivityProblem> problems;
   for (std::size_t i = 0; i < variables.size(); ++i)
-    problems.push_back({std::string(name(variables[i])), change_of(variables[i], flow.settings().freestream),
+    problems.push_back({std::string(name(variables[i])), change_of(variables[i], stream),
                         rates_of.empty() ? std::span<const Primitive<Real>>{} : rates_of[i].field});
-  return solve_sensitivities(flow.iteration(), flow.conditions(), problems, flow.settings().derivatives);
+  return solver.solve(problems);
 }
 
 void add_column(DerivativeSet& derivatives, Variable variable, const Sensitivity& solution,
@@ -88,9 +89,10 @@ DerivativeSet solve_all(FlowCase& flow) {
   };
   std::vector<Variable> direct = angles;
   direct.insert(direct.end(), rotations.begin(), rotations.end());
-  const auto solutions = solve(flow, direct, {});
+  SensitivitySolver solver(flow.iteration(), flow.conditions(), settings.derivatives);
+  const auto solutions = solve(solver, settings.freestream, direct, {});
   add_all(direct, solutions);
-  add_all(angle_rates, solve(flow, angle_rates, solutions));
+  add_all(angle_rates, solve(solver, settings.freestream, angle_rates, solutions));
   return out;
 }
 

@@ -83,8 +83,8 @@ struct UnsteadySettings {
 /// How the linear systems behind the stability derivatives are solved.
 struct DerivativeSettings {
   SensitivityMethod method = SensitivityMethod::gmres;
-  Real orders = 5;   ///< decades that the preconditioned residual must drop
-  int restart = 30;  ///< size of the Krylov space
+  Real orders = 3;      ///< decades that the preconditioned residual must drop
+  int directions = 80;  ///< of the Krylov space, shared by all right-hand sides, before it begins anew
   int max_iterations = 300;
 };
 

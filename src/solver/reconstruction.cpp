@@ -1,6 +1,8 @@
 #include "solver/reconstruction.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <type_traits>
 
 #include "core/dual.hpp"
 #include "solver/limiter.hpp"
@@ -108,6 +110,35 @@ Gradient<T> Reconstruction<T>::green_gauss(Index cell) const {
   return out;
 }
 
+namespace {
+
+template <LimiterKind limiter, class T>
+T limited_share(const T& delta, const T& room, Real epsilon2) {
+  if constexpr (limiter == LimiterKind::barth_jespersen)
+    return barth_jespersen(delta, room);
+  else
+    return venkatakrishnan(delta, room, epsilon2);
+}
+
+/// Reconstructed change of variable i at an offset.
+template <class T>
+T change_at(const Gradient<T>& gradient, const Vec3& offset, int i) {
+  return offset.x * gradient.along[0][i] + offset.y * gradient.along[1][i] + offset.z * gradient.along[2][i];
+}
+
+Gradient<Real> values_of(const Gradient<Real>& gradient) {
+  return gradient;
+}
+template <int N>
+Gradient<Real> values_of(const Gradient<Dual<N>>& gradient) {
+  Gradient<Real> out;
+  for (int axis = 0; axis < 3; ++axis)
+    for (int i = 0; i < 5; ++i) out.along[axis][i] = gradient.along[axis][i].v;
+  return out;
+}
+
+}  // namespace
+
 template <class T>
 template <LimiterKind limiter>
 Primitive<T> Reconstruction<T>::limiter_factors(Index cell, const Arms& arms, const Primitive<T>& w,
@@ -116,37 +147,63 @@ Primitive<T> Reconstruction<T>::limiter_factors(Index cell, const Arms& arms, co
   const auto& corners = domain.cell_points[cell];
   // (K h)^3 with h^3 = 6 V (a cube's corner); scales of density, speed and pressure: 1, 1 and 1/gamma.
   const Real gamma = discretization_.gamma();
-  const Real epsilon2 = std::pow(discretization_.space().limiter_k, 3) * 6 * domain.volume[cell];
+  const Real k_limit = discretization_.space().limiter_k;
+  const Real epsilon2 = k_limit * k_limit * k_limit * 6 * domain.volume[cell];
   const Real scaled[5] = {epsilon2, epsilon2, epsilon2, epsilon2, epsilon2 / (gamma * gamma)};
-  Primitive<T> minimum = points_[corners[0]].minimum, maximum = points_[corners[0]].maximum;
-  for (std::size_t corner = 1; corner < 4; ++corner)
+  // MLP looks at each corner and its own extrema; the others at the face opposite, a third of the arm beyond
+  // the centroid, and the extrema of all corners.
+  constexpr bool at_corners = limiter == LimiterKind::mlp_u2;
+  constexpr Real reach = at_corners ? -1.0 : 1.0 / 3;
+  std::array<const PointSums*, 4> points;
+  for (std::size_t corner = 0; corner < 4; ++corner) points[corner] = &points_[corners[corner]];
+  // The smallest factor is found among plain numbers; it alone is differentiated.
+  using Numbers = std::array<Real, 5>;
+  using Corners = std::array<std::size_t, 5>;
+  Numbers minimum, maximum, smallest;
+  Corners lowest{}, highest{}, tightest;  // corners that hold the extrema, and that with the smallest factor
+  smallest.fill(1);
+  tightest.fill(arms.size());
+  const auto begin_with = [&](std::size_t corner) {
     for (int i = 0; i < 5; ++i) {
-      const PointSums& sums = points_[corners[corner]];
-      minimum[i] = sums.minimum[i] < minimum[i] ? sums.minimum[i] : minimum[i];
-      maximum[i] = sums.maximum[i] > maximum[i] ? sums.maximum[i] : maximum[i];
+      minimum[i] = value_of(points[corner]->minimum[i]);
+      maximum[i] = value_of(points[corner]->maximum[i]);
     }
-  Primitive<T> factor{{T(1), T(1), T(1), T(1), T(1)}};
-  for (std::size_t corner = 0; corner < 4; ++corner) {
-    // MLP looks at the corner itself; the others at the face opposite, a third of the arm beyond the
-    // centroid.
-    const Vec3 offset = (limiter == LimiterKind::mlp_u2 ? -1.0 : 1.0 / 3) * arms[corner];
-    if constexpr (limiter == LimiterKind::mlp_u2) {
-      minimum = points_[corners[corner]].minimum;
-      maximum = points_[corners[corner]].maximum;
-    }
+    lowest.fill(corner);
+    highest.fill(corner);
+  };
+  begin_with(0);
+  for (std::size_t corner = 1; corner < 4 && !at_corners; ++corner)
     for (int i = 0; i < 5; ++i) {
-      const T delta =
-          offset.x * gradient.along[0][i] + offset.y * gradient.along[1][i] + offset.z * gradient.along[2][i];
-      const T room = (delta > T(0) ? maximum[i] : minimum[i]) - w[i];
-      T phi;
-      if constexpr (limiter == LimiterKind::barth_jespersen)
-        phi = barth_jespersen(delta, room);
-      else
-        phi = venkatakrishnan(delta, room, scaled[i]);
-      factor[i] = phi < factor[i] ? phi : factor[i];
+      const Real low = value_of(points[corner]->minimum[i]), high = value_of(points[corner]->maximum[i]);
+      lowest[i] = low < minimum[i] ? corner : lowest[i];
+      minimum[i] = std::min(low, minimum[i]);
+      highest[i] = high > maximum[i] ? corner : highest[i];
+      maximum[i] = std::max(high, maximum[i]);
+    }
+  const Gradient<Real> slope = values_of(gradient);
+  for (std::size_t corner = 0; corner < arms.size(); ++corner) {
+    const Vec3 offset = reach * arms[corner];
+    if (at_corners) begin_with(corner);
+    for (int i = 0; i < 5; ++i) {
+      const Real delta = change_at(slope, offset, i);
+      const Real room = (delta > 0 ? maximum[i] : minimum[i]) - value_of(w[i]);
+      const Real factor = limited_share<limiter>(delta, room, scaled[i]);
+      tightest[i] = factor < smallest[i] ? corner : tightest[i];
+      smallest[i] = std::min(factor, smallest[i]);
     }
   }
-  return factor;
+  Primitive<T> out;
+  for (int i = 0; i < 5; ++i) {
+    out[i] = smallest[i];
+    if constexpr (!std::is_same_v<T, Real>)
+      if (const std::size_t corner = tightest[i]; corner < arms.size()) {
+        const T delta = change_at(gradient, reach * arms[corner], i);
+        const T& extremum = value_of(delta) > 0 ? points[at_corners ? corner : highest[i]]->maximum[i]
+                                                : points[at_corners ? corner : lowest[i]]->minimum[i];
+        out[i] = limited_share<limiter>(delta, extremum - w[i], scaled[i]);
+      }
+  }
+  return out;
 }
 
 template <class T>

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "core/error.hpp"
-#include "solver/krylov_space.hpp"
 
 namespace alphadot {
 
@@ -30,43 +29,102 @@ void add_mass_term(const ImplicitIteration& iteration, std::span<const Primitive
   }
 }
 
+/// Forces and moments of all patches as plain numbers.
+std::vector<Real> numbers_of(const std::vector<Load>& loads) {
+  std::vector<Real> out;
+  for (const Load& load : loads)
+    for (int i = 0; i < 3; ++i) out.insert(out.end(), {load.force[i], load.moment[i]});
+  return out;
+}
+
+std::vector<Load> loads_of(std::span<const Real> numbers) {
+  std::vector<Load> out(numbers.size() / 6);
+  auto next = numbers.begin();
+  for (Load& load : out)
+    for (int i = 0; i < 3; ++i) {
+      load.force[i] = *next++;
+      load.moment[i] = *next++;
+    }
+  return out;
+}
+
+Load sum_of(const std::vector<Load>& loads) {
+  Load out;
+  for (const Load& load : loads) out += load;
+  return out;
+}
+
+Load magnitude(const Load& load) {
+  Load out;
+  for (int i = 0; i < 3; ++i) {
+    out.force[i] = std::abs(load.force[i]);
+    out.moment[i] = std::abs(load.moment[i]);
+  }
+  return out;
+}
+
+/// The way of one problem to its solution: loads (of this rank only) and norm after every iteration.
+struct Record {
+  std::vector<std::vector<Real>> loads;
+  std::vector<Real> norms;
+  Real drop() const { return norms.back() / std::max(norms.front(), Real{1e-300}); }
+};
+
+/// Error that the latest changes leave when they go on to shrink as the residual did over the last
+/// iterations.
+Load remaining_error(const Record& record, const std::vector<Load>& totals) {
+  constexpr std::size_t span = 4;
+  const std::size_t last = totals.size() - 1, before = last - std::min(last, span);
+  if (last == 0) return magnitude(totals.back());
+  const Real drop = record.norms[last] / std::max(record.norms[before], Real{1e-300});
+  const Real rate = std::clamp(std::pow(drop, 1.0 / static_cast<Real>(last - before)), 0.3, 0.95);
+  Load change = magnitude(totals[last] - totals[last - 1]);
+  if (last > 1) {
+    const Load earlier = magnitude(totals[last - 1] - totals[last - 2]);
+    for (int i = 0; i < 3; ++i) {
+      change.force[i] = std::max(change.force[i], earlier.force[i]);
+      change.moment[i] = std::max(change.moment[i], earlier.moment[i]);
+    }
+  }
+  return rate / (1 - rate) * change;
+}
+
 /// N problems solved in lockstep: every application of the tangent serves all of them.
 template <int N>
 class Lockstep {
  public:
   Lockstep(ImplicitIteration& iteration, const Conditions<Real>& conditions,
            std::span<const SensitivityProblem> problems, const DerivativeSettings& settings,
-           const Vec3& center)
+           SearchSpace& space)
       : iteration_(iteration),
         comm_(iteration.communicator()),
         problems_(problems),
         settings_(settings),
-        cells_(static_cast<std::size_t>(iteration.discretization().domain().owned_cells)),
-        tangent_(iteration.discretization(), comm_, iteration.flow(), conditions, center) {
+        space_(space),
+        tangent_(iteration.discretization(), comm_, iteration.flow(), conditions, iteration.moment_center()) {
+    const auto cells = static_cast<std::size_t>(iteration.discretization().domain().owned_cells);
     for (std::size_t k = 0; k < N; ++k) {
       results_[k].name = problems[k].name;
-      results_[k].field.resize(cells_);
-      images_[k].resize(cells_);
-      work_[k].resize(cells_);
+      results_[k].field.resize(cells);
+      images_[k].resize(cells);
+      corrections_[k].resize(cells);
     }
   }
 
   std::array<Sensitivity, N> solve() {
-    first_ = norms(residual());
+    evaluate();
     if (settings_.method == SensitivityMethod::march)
       march();
     else
       gmres();
-    const auto last = norms(residual());
-    for (std::size_t k = 0; k < N; ++k)
-      results_[k].relative_residual = last[k] / std::max(first_[k], Real{1e-300});
-    estimate_errors();
+    for (std::size_t k = 0; k < N; ++k) finish(results_[k], records_[k]);
     return std::move(results_);
   }
 
  private:
-  /// images_ = A U + b of all problems at their present fields, and the loads.
-  std::array<std::vector<Conserved<Real>>, N>& residual() {
+  /// corrections_ = -P^-1 (A U + b) of all problems at their present fields; loads and norms into the
+  /// records.
+  void evaluate() {
     typename Tangent<N>::Fields fields;
     std::array<ConditionsChange, N> changes;
     for (std::size_t k = 0; k < N; ++k) {
@@ -76,8 +134,14 @@ class Lockstep {
     tangent_.apply(fields, changes, spans());
     for (std::size_t k = 0; k < N; ++k)
       if (!problems_[k].rate.empty()) add_mass_term(iteration_, problems_[k].rate, images_[k]);
-    take_loads();
-    return images_;
+    precondition(corrections_);
+    const auto loads = tangent_.loads();
+    for (std::size_t k = 0; k < N; ++k) take(k, numbers_of(loads[k]));
+  }
+
+  void take(std::size_t k, std::vector<Real> loads) {
+    records_[k].loads.push_back(std::move(loads));
+    records_[k].norms.push_back(norm(corrections_[k], comm_));
   }
 
   typename Tangent<N>::Images spans() {
@@ -86,151 +150,132 @@ class Lockstep {
     return out;
   }
 
-  /// One more correction -P^-1 (A U + b), not added to the fields, shows how far the loads may still go.
-  /// Corrections of a march shrink by a rate of 0.9 at worst where it converges at all, so that all that
-  /// follow make ten of the first.
-  void estimate_errors() {
-    constexpr Real corrections_to_come = 10;
-    precondition();
-    std::array<Load, N> totals;
-    for (std::size_t k = 0; k < N; ++k) {
-      totals[k] = results_[k].total;
-      for (std::size_t i = 0; i < cells_; ++i) results_[k].field[i] += work_[k][i];
-    }
-    residual();
-    for (std::size_t k = 0; k < N; ++k) {
-      results_[k].total_error = corrections_to_come * (results_[k].total - totals[k]);
-      for (std::size_t i = 0; i < cells_; ++i) results_[k].field[i] -= work_[k][i];
-    }
-  }
-
-  void take_loads() {
-    auto loads = tangent_.loads();
-    std::vector<Real> buffer;
-    for (const auto& patches : loads)
-      for (const auto& load : patches)
-        for (int i = 0; i < 3; ++i) {
-          buffer.push_back(load.force[i]);
-          buffer.push_back(load.moment[i]);
-        }
-    comm_.sum(buffer);
-    auto next = buffer.begin();
-    for (std::size_t k = 0; k < N; ++k) {
-      Load total;
-      for (auto& load : loads[k]) {
-        for (int i = 0; i < 3; ++i) {
-          load.force[i] = *next++;
-          load.moment[i] = *next++;
-        }
-        total += load;
-      }
-      results_[k].loads = loads[k];
-      results_[k].total = total;
-    }
-  }
-
-  std::array<Real, N> norms(const std::array<std::vector<Conserved<Real>>, N>& vectors) const {
-    std::array<Real, N> sums{};
-    for (std::size_t k = 0; k < N; ++k)
-      for (const auto& value : vectors[k])
-        for (int i = 0; i < 5; ++i) sums[k] += value[i] * value[i];
-    comm_.sum(std::span<Real>(sums));
-    for (Real& sum : sums) sum = std::sqrt(sum);
-    return sums;
-  }
-
-  /// work_ = -P^-1 images_.
-  void precondition() {
+  /// out = -P^-1 images_.
+  void precondition(std::array<States, N>& out) {
     std::array<LinearSystem, N> systems;
-    for (std::size_t k = 0; k < N; ++k) systems[k] = {images_[k], work_[k]};
+    for (std::size_t k = 0; k < N; ++k) systems[k] = {images_[k], out[k]};
     iteration_.linear_solver().solve(systems);
   }
 
-  bool all_below(const std::array<Real, N>& values, const std::array<Real, N>& first) const {
-    for (std::size_t k = 0; k < N; ++k)
-      if (values[k] > std::pow(10.0, -settings_.orders) * first[k]) return false;
-    return true;
+  bool all_dropped(Real share) const {
+    return std::ranges::all_of(records_, [&](const Record& record) { return record.drop() <= share; });
+  }
+  Real largest_norm() const {
+    Real out = 0;
+    for (const Record& record : records_) out = std::max(out, record.norms.back());
+    return out;
   }
 
   /// U += -P^-1 (A U + b) until it is steady.
   void march() {
-    for (int count = 1; count <= settings_.max_iterations; ++count) {
-      precondition();
+    for (int count = 1; count <= settings_.max_iterations && !all_dropped(target_); ++count) {
       for (std::size_t k = 0; k < N; ++k) {
         ++results_[k].iterations;
-        for (std::size_t i = 0; i < cells_; ++i) results_[k].field[i] += work_[k][i];
+        for (std::size_t i = 0; i < corrections_[k].size(); ++i) results_[k].field[i] += corrections_[k][i];
       }
-      const auto left = norms(residual());
+      evaluate();
       for (std::size_t k = 0; k < N; ++k)
-        if (!(left[k] < 1e6 * first_[k]))
+        if (!(records_[k].drop() < 1e6))
           throw DivergedError("the march of the response to " + problems_[k].name +
                               " grows: the steady state hides an unstable cell");
-      if (all_below(left, first_)) return;
     }
   }
 
+  /// Every iteration looks along the present corrections, in all problems along those of all.
   void gmres() {
-    std::vector<KrylovSpace> spaces(N, KrylovSpace(cells_, settings_.restart, comm_));
-    std::array<Real, N> left{}, start{};
-    for (int used = 0; used < settings_.max_iterations;) {
-      if (used > 0) residual();
-      precondition();
-      for (std::size_t k = 0; k < N; ++k) left[k] = spaces[k].start(work_[k]);
-      if (used == 0) start = left;
-      if (all_below(left, start)) return;
-      while (!spaces[0].is_full() && used < settings_.max_iterations && !all_below(left, start)) {
-        typename Tangent<N>::Fields fields;
-        for (std::size_t k = 0; k < N; ++k) fields[k] = spaces[k].direction();
-        tangent_.apply(fields, {}, spans());
-        precondition();
-        for (std::size_t k = 0; k < N; ++k) {
-          for (auto& value : work_[k]) value = Real{-1} * value;
-          left[k] = spaces[k].extend(work_[k]);
-          ++results_[k].iterations;
-        }
+    constexpr Real single_precision = 1e-5;  // what directions kept as such can reduce a residual by
+    for (int used = 0; used < settings_.max_iterations && !all_dropped(target_);) {
+      if (used > 0) evaluate();
+      if (space_.is_full()) space_.clear();
+      const Real cycle_start = largest_norm();
+      reduce_all(0);
+      while (used < settings_.max_iterations && !space_.is_full() && !all_dropped(target_) &&
+             largest_norm() > single_precision * cycle_start) {
+        const int first = space_.size();
+        widen_space();
+        reduce_all(first);
         ++used;
-      }
-      for (std::size_t k = 0; k < N; ++k) {
-        const auto weights = spaces[k].weights();
-        for (int j = 0; j < spaces[k].size(); ++j)
-          for (std::size_t i = 0; i < cells_; ++i) results_[k].field[i] += weights(j) * spaces[k].basis(j)[i];
+        for (auto& result : results_) ++result.iterations;
       }
     }
+  }
+
+  void widen_space() {
+    typename Tangent<N>::Fields fields;
+    for (std::size_t k = 0; k < N; ++k) fields[k] = corrections_[k];
+    tangent_.apply(fields, {}, spans());
+    const auto loads = tangent_.loads();
+    auto directions = corrections_;
+    std::array<States, N> products;
+    for (std::size_t k = 0; k < N; ++k) products[k].resize(directions[k].size());
+    precondition(products);
+    for (std::size_t k = 0; k < N; ++k) {
+      for (auto& value : products[k]) value = Real{-1} * value;
+      space_.add(directions[k], products[k], numbers_of(loads[k]));
+    }
+  }
+
+  void reduce_all(int first) {
+    if (space_.size() == first) return;
+    for (std::size_t k = 0; k < N; ++k) {
+      auto loads = records_[k].loads.back();
+      space_.reduce(first, corrections_[k], results_[k].field, loads);
+      take(k, std::move(loads));
+    }
+  }
+
+  void finish(Sensitivity& result, Record& record) const {
+    std::vector<Load> totals;
+    for (auto& loads : record.loads) {
+      comm_.sum(loads);
+      result.loads = loads_of(loads);
+      totals.push_back(sum_of(result.loads));
+    }
+    result.total = totals.back();
+    result.total_error = remaining_error(record, totals);
+    result.relative_residual = record.drop();
   }
 
   ImplicitIteration& iteration_;
   const Communicator& comm_;
   std::span<const SensitivityProblem> problems_;
   DerivativeSettings settings_;
-  std::size_t cells_;
+  SearchSpace& space_;
+  Real target_ = std::pow(10.0, -settings_.orders);
   Tangent<N> tangent_;
   std::array<Sensitivity, N> results_;
+  std::array<Record, N> records_;
   std::array<std::vector<Conserved<Real>>, N> images_;
-  std::array<States, N> work_;
-  std::array<Real, N> first_{};
+  std::array<States, N> corrections_;
 };
 
 template <int N>
 void solve_group(ImplicitIteration& iteration, const Conditions<Real>& conditions,
                  std::span<const SensitivityProblem> problems, const DerivativeSettings& settings,
-                 std::vector<Sensitivity>& out) {
-  for (auto& result :
-       Lockstep<N>(iteration, conditions, problems, settings, iteration.moment_center()).solve())
+                 SearchSpace& space, std::vector<Sensitivity>& out) {
+  for (auto& result : Lockstep<N>(iteration, conditions, problems, settings, space).solve())
     out.push_back(std::move(result));
 }
 
 }  // namespace
 
-std::vector<Sensitivity> solve_sensitivities(ImplicitIteration& iteration, const Conditions<Real>& conditions,
-                                             const std::vector<SensitivityProblem>& problems,
-                                             const DerivativeSettings& settings) {
+SensitivitySolver::SensitivitySolver(ImplicitIteration& iteration, const Conditions<Real>& conditions,
+                                     const DerivativeSettings& settings)
+    : iteration_(iteration),
+      conditions_(conditions),
+      settings_(settings),
+      space_(static_cast<std::size_t>(iteration.discretization().domain().owned_cells), settings.directions,
+             iteration.communicator()) {
   iteration.linearise(conditions, {.cfl = linear_cfl});
+}
+
+std::vector<Sensitivity> SensitivitySolver::solve(const std::vector<SensitivityProblem>& problems) {
   std::vector<Sensitivity> out;
   for (std::size_t begin = 0; begin < problems.size();) {
     const auto group = std::span(problems).subspan(begin, std::min<std::size_t>(3, problems.size() - begin));
-    if (group.size() == 3) solve_group<3>(iteration, conditions, group, settings, out);
-    if (group.size() == 2) solve_group<2>(iteration, conditions, group, settings, out);
-    if (group.size() == 1) solve_group<1>(iteration, conditions, group, settings, out);
+    if (group.size() == 3) solve_group<3>(iteration_, conditions_, group, settings_, space_, out);
+    if (group.size() == 2) solve_group<2>(iteration_, conditions_, group, settings_, space_, out);
+    if (group.size() == 1) solve_group<1>(iteration_, conditions_, group, settings_, space_, out);
     begin += group.size();
   }
   return out;

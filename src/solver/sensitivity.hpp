@@ -7,6 +7,7 @@
 
 #include "core/case.hpp"
 #include "solver/implicit_iteration.hpp"
+#include "solver/search_space.hpp"
 #include "solver/tangent.hpp"
 
 namespace alphadot {
@@ -27,15 +28,29 @@ struct Sensitivity {
   std::vector<Load> loads;             ///< change of the load of every patch, over all ranks
   Load total;
   Load total_error;  ///< how far the total may be from that of the exact solution of the linear problem
-  Real relative_residual = 1;  ///< |A U + b| / |b|, evaluated, not estimated
+  Real relative_residual = 1;  ///< |P^-1 (A U + b)| / |P^-1 b| with the preconditioner P
   int iterations = 0;
 };
 
-/// Solves all problems, up to three at a time with one differentiated residual, preconditioned by (or, for
-/// `march`, iterated with) the implicit scheme of `iteration`, whose flow must be steady under `conditions`.
-/// Throws DivergedError when a march grows: the steady state then hides an unstable cell. Collective.
-std::vector<Sensitivity> solve_sensitivities(ImplicitIteration& iteration, const Conditions<Real>& conditions,
-                                             const std::vector<SensitivityProblem>& problems,
-                                             const DerivativeSettings& settings);
+/// Solves linear problems about one steady flow, up to three at a time with one differentiated residual,
+/// preconditioned by (or, for the method `march`, iterated with) the implicit scheme of `iteration`. All
+/// problems share the directions found so far.
+class SensitivitySolver {
+ public:
+  /// The flow of `iteration` must be steady under `conditions`. Collective.
+  SensitivitySolver(ImplicitIteration& iteration, const Conditions<Real>& conditions,
+                    const DerivativeSettings& settings);
+
+  /// Throws DivergedError when a march grows: the steady state then hides an unstable cell. Collective.
+  std::vector<Sensitivity> solve(const std::vector<SensitivityProblem>& problems);
+
+  std::size_t bytes() const { return space_.bytes(); }
+
+ private:
+  ImplicitIteration& iteration_;
+  Conditions<Real> conditions_;
+  DerivativeSettings settings_;
+  SearchSpace space_;
+};
 
 }  // namespace alphadot

@@ -40,10 +40,9 @@ TEST_P(SensitivityTest, IsTheChangeOfTheWholeStream) {
                               std::make_unique<BlockLuSgs>(box.discretization, comm, 3), {});
   iteration.set_uniform(conditions.free_stream);
   iteration.evaluate(conditions, 2);
-  const auto responses = solve_sensitivities(
-      iteration, conditions,
-      {{"wind", {{0.2, -0.1, 1}, {}, {}}}, {"wind and grid", {{0.3, 0, 0}, {0, 0, 1}, {0.1, 0.2, -0.3}}}},
-      options());
+  const auto responses = SensitivitySolver(iteration, conditions, options())
+                             .solve({{"wind", {{0.2, -0.1, 1}, {}, {}}},
+                                     {"wind and grid", {{0.3, 0, 0}, {0, 0, 1}, {0.1, 0.2, -0.3}}}});
   const Vec3 winds[2] = {{0.2, -0.1, 1}, {0.3, 0, 0}};
   for (int k = 0; k < 2; ++k)
     for (const auto& w : responses[k].field) {
@@ -71,7 +70,7 @@ TEST_P(SensitivityTest, IsTheDerivativeOfSteadyStates) {
   RampAt middle(box, ramp_mach);
   const RampAt above(box, ramp_mach + step), below(box, ramp_mach - step);
   const auto response =
-      solve_sensitivities(middle.steady.iteration, middle.conditions, {mach_problem}, options())[0];
+      SensitivitySolver(middle.steady.iteration, middle.conditions, options()).solve({mach_problem})[0];
   EXPECT_LT(response.relative_residual, 1e-8);
   for (Index cell = 0; cell < box.domain.owned_cells; ++cell)
     for (int i = 0; i < 5; ++i) {
@@ -91,9 +90,9 @@ TEST_P(SensitivityTest, AnswersARateWithTheMassOfTheFlow) {
   const BoxCase box(ramp_mesh(8), ramp_sides(), {}, comm);
   RampAt ramp(box, ramp_mach);
   ImplicitIteration& iteration = ramp.steady.iteration;
-  const auto steady = solve_sensitivities(iteration, ramp.conditions, {mach_problem}, options())[0];
-  const auto rate =
-      solve_sensitivities(iteration, ramp.conditions, {{"rate", {}, steady.field}}, options())[0];
+  SensitivitySolver solver(iteration, ramp.conditions, options());
+  const auto steady = solver.solve({mach_problem})[0];
+  const auto rate = solver.solve({{"rate", {}, steady.field}})[0];
 
   const auto residual_at = [&](Real share) {
     FlowField<Real> flow(box.domain, comm);

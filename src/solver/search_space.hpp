@@ -1,0 +1,52 @@
+// The directions in which linear systems with one operator look for their solutions.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "core/communicator.hpp"
+#include "euler/state.hpp"
+
+namespace alphadot {
+
+/// Directions z with orthonormal images w = A z of a linear operator: the generalised conjugate residual form
+/// of GMRES (Eisenstat, Elman & Schultz 1983). Several right-hand sides share the directions, also one that
+/// comes up later. Kept in single precision, 40 bytes a cell and direction; sums are in double.
+class SearchSpace {
+ public:
+  /// For vectors of `cells` on this rank; holds up to `capacity` directions.
+  SearchSpace(std::size_t cells, int capacity, const Communicator& comm);
+
+  void clear() { directions_.clear(); }
+  int size() const { return static_cast<int>(directions_.size()); }
+  bool is_full() const { return size() >= capacity_; }
+
+  /// Adds a direction, its image and linear functionals of it; the first two are overwritten. Leaves out one
+  /// whose image lies in the span of the others. Collective.
+  void add(std::span<Primitive<Real>> direction, std::span<Primitive<Real>> image,
+           std::vector<Real> functionals);
+
+  /// Moves `solution` by directions from number `first` on so that what is left of `defect` = b - A solution
+  /// becomes the smallest, and `functionals` with it. Collective.
+  void reduce(int first, std::span<Primitive<Real>> defect, std::span<Primitive<Real>> solution,
+              std::span<Real> functionals) const;
+
+  std::size_t bytes() const { return directions_.size() * cells_ * 2 * sizeof(Five<float>); }
+
+ private:
+  struct Direction {
+    std::vector<Five<float>> direction, image;  // [cells]
+    std::vector<Real> functionals;
+  };
+  std::vector<Real> products(std::size_t first, std::span<const Primitive<Real>> vector) const;
+
+  const Communicator& comm_;
+  std::size_t cells_;
+  int capacity_;
+  std::vector<Direction> directions_;
+};
+
+/// Euclidean norm over all ranks. Collective.
+Real norm(std::span<const Primitive<Real>> vector, const Communicator& comm);
+
+}  // namespace alphadot
