@@ -1,5 +1,7 @@
 #include "io/case_file.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <deque>
 #include <filesystem>
@@ -20,6 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::uintmax_t largest_file = 1 << 20;  ///< bytes
+constexpr std::size_t most_problems = 50;         ///< that one message tells of
 
 /// A key that is none of ours, with the one that was probably meant.
 Problem unknown_key(const std::string& path, int line) {
@@ -30,9 +33,9 @@ Problem unknown_key(const std::string& path, int line) {
   for (const auto& key : case_keys()) {
     if (key.name() == name) meant = key.path;  // the right name in the wrong table, or in none
     if (key.table() == prefix)
-      siblings.push_back(key.name());
+      siblings.emplace_back(key.name());
     else if (prefix.empty())
-      siblings.push_back(key.table().substr(0, key.table().size() - 1));
+      siblings.emplace_back(key.table().substr(0, key.table().size() - 1));
   }
   if (const auto sibling = nearest(name, siblings); meant.empty() && !sibling.empty())
     meant = prefix + sibling;
@@ -94,16 +97,15 @@ class CaseReader {
     auto value = override_value(assignment.substr(equals + 1), key->is_text);
     if (!value) return complain(place, {"", 0, "the value is not valid text", ""});
     overrides_.push_back(std::move(*value));
-    entries_[path] = {overrides_.back().get("value"), place, 0};
+    entries_[path] = {key, overrides_.back().get("value"), place, 0};
   }
 
   Case finish() {
     Case c;
     c.file = path_;
     for (const auto& [path, entry] : entries_) {
-      const auto* key = find_case_key(path);
-      const auto name = std::string_view(path).substr(key->table().size());
-      if (auto problem = key->read(name, *entry.node, c))
+      const auto name = std::string_view(path).substr(entry.key->table().size());
+      if (auto problem = entry.key->read(name, *entry.node, c))
         complain(entry.place, {"", entry.line, path + " " + problem->what, problem->remedy});
     }
     if (!unreadable_) {
@@ -118,19 +120,24 @@ class CaseReader {
  private:
   /// What was said about a key, and where: in the file, or by the override that is its place.
   struct Entry {
+    const CaseKey* key = nullptr;
     const toml::node* node = nullptr;
     std::string place;
     int line = 0;
   };
 
   void complain(const std::string& place, Problem problem) {
+    if (problems_.size() == most_problems) {
+      ++left_out_;
+      return;
+    }
     problem.file = place;
     problems_.push_back(std::move(problem));
   }
 
   /// A problem with a combination of keys, placed at the first of `paths` that was given.
   void complain_about(const std::vector<std::string>& paths, std::string what, std::string remedy = "") {
-    Entry entry{nullptr, path_, 0};
+    Entry entry{nullptr, nullptr, path_, 0};
     for (auto path = paths.rbegin(); path != paths.rend(); ++path)
       if (const auto found = entries_.find(*path); found != entries_.end()) entry = found->second;
     complain(entry.place, {"", entry.line, std::move(what), std::move(remedy)});
@@ -140,8 +147,8 @@ class CaseReader {
     for (const auto& [key, node] : table) {
       const std::string path = prefix + std::string(key.str());
       const int line = static_cast<int>(key.source().begin.line);
-      if (find_case_key(path))
-        entries_[path] = {&node, path_, line};
+      if (const auto* known = find_case_key(path))
+        entries_[path] = {known, &node, path_, line};
       else if (!is_table(path))
         complain(path_, unknown_key(path, line));
       else if (const auto* inner = node.as_table())
@@ -153,10 +160,9 @@ class CaseReader {
 
   void check_required() {
     for (const auto& key : case_keys()) {
-      const bool given = std::ranges::any_of(
-          entries_, [&](const auto& path_and_entry) { return find_case_key(path_and_entry.first) == &key; });
-      if (!key.required || given) continue;
-      const std::string table = key.table().substr(0, key.table().size() - 1);
+      const auto is_given = [&](const auto& path_and_entry) { return path_and_entry.second.key == &key; };
+      if (!key.required || std::ranges::any_of(entries_, is_given)) continue;
+      const std::string table(key.table().substr(0, key.table().size() - 1));
       const auto* node = file_.get(table);
       const int line = node ? static_cast<int>(node->source().begin.line) : 0;
       if (key.is_family())
@@ -206,6 +212,8 @@ class CaseReader {
       return std::tuple(p.file != path_, p.file == path_ ? p.line : 0);
     };
     std::ranges::stable_sort(problems_, {}, order);
+    if (left_out_ > 0)
+      problems_.push_back({path_, 0, fmt::format("and {} more mistakes", left_out_), "is it a case file?"});
     throw InputError(std::move(problems_));
   }
 
@@ -214,6 +222,7 @@ class CaseReader {
   std::deque<toml::table> overrides_;  ///< entries point into it: elements must not move
   std::map<std::string, Entry> entries_;
   std::vector<Problem> problems_;
+  int left_out_ = 0;         ///< problems beyond the first most_problems
   bool unreadable_ = false;  ///< the file is not TOML: what it lacks cannot be told
 };
 

@@ -29,8 +29,8 @@ struct CaseKey {
   /// The lines "name = value\n" that `read` turns into the same settings.
   std::function<std::string(const Case&)> write;
 
-  std::string table() const { return path.substr(0, path.size() - name().size()); }  ///< "freestream." or ""
-  std::string name() const { return path.substr(path.rfind('.') + 1); }
+  std::string_view table() const { return {path.data(), path.rfind('.') + 1}; }  ///< "freestream." or ""
+  std::string_view name() const { return std::string_view(path).substr(path.rfind('.') + 1); }
   bool is_family() const { return name() == "*"; }
 };
 

@@ -113,7 +113,7 @@ CaseKey make_case_key(std::string path, At at, ValueType type, std::string doc) 
   key.doc = std::move(doc);
   key.is_text = ValueType::is_text;
   key.read = [at, type](std::string_view, const toml::node& node, Case& c) { return type.read(node, at(c)); };
-  key.write = [at, type, name = key.name()](const Case& c) {
+  key.write = [at, type, name = std::string(key.name())](const Case& c) {
     return name + " = " + type.write(at(c)) + "\n";
   };
   return key;

@@ -1,6 +1,7 @@
 #include "io/suggestion.hpp"
 
 #include <algorithm>
+#include <cstdlib>
 
 namespace alphadot {
 
@@ -27,6 +28,8 @@ std::string nearest(std::string_view word, const std::vector<std::string>& candi
   std::string best;
   int best_distance = static_cast<int>(std::max<std::size_t>(1, (word.size() + 2) / 3)) + 1;
   for (const auto& candidate : candidates) {
+    const auto lengths = static_cast<int>(word.size()) - static_cast<int>(candidate.size());
+    if (std::abs(lengths) >= best_distance) continue;  // the distance is at least that
     const int distance = edit_distance(word, candidate);
     if (distance < best_distance) {
       best_distance = distance;

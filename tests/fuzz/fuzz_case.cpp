@@ -5,6 +5,7 @@
 #include <string>
 
 #include "core/error.hpp"
+#include "fuzz/largest_allocation.hpp"
 #include "io/case_file.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -16,6 +17,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     overrides.push_back(text.substr(end + 1));
     text.resize(end);
   }
+  // The keys are made once. A document is a tree, whose arrays take up to 16 bytes for two of text ("1,").
+  static const std::string keys = describe_case_keys();
+  const fuzz::LargestAllocation limit(16 * size + 16384);
   try {
     const std::string resolved = resolved_case(parse_case(text, "/fuzz/case.toml", overrides));
     if (resolved_case(parse_case(resolved, "/elsewhere/case.toml")) != resolved) std::abort();

@@ -2,6 +2,7 @@
 #include "io/gmsh_reader.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  alphadot::fuzz::check_mesh([&] { return alphadot::read_gmsh(alphadot::fuzz::text(data, size), "fuzz"); });
+  using namespace alphadot;
+  fuzz::check_mesh(size, fuzz::text_growth, [&] { return read_gmsh(fuzz::text(data, size), "fuzz"); });
   return 0;
 }

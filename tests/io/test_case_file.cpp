@@ -217,6 +217,14 @@ TEST(CaseFile, AllProblemsComeAtOnceInTheOrderOfTheFile) {
       << overrides;
 }
 
+TEST(CaseFile, ManyProblemsAreCut) {
+  std::string text = minimal + "[space]\n";
+  for (int i = 0; i < 2000; ++i) text += "key" + std::to_string(i) + " = 1\n";
+  const auto problems = problems_of(text);
+  ASSERT_EQ(problems.size(), 51u);
+  EXPECT_EQ(problems.back().what, "and 1950 more mistakes");
+}
+
 TEST(CaseFile, UnreadableFilesAreRefused) {
   const auto folder = std::filesystem::path(testing::TempDir());
   const auto message = [](const std::string& path) -> std::string {
