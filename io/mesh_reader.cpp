@@ -28,6 +28,9 @@ Format format_of(const std::string& path) {
   if (path.ends_with(".su2")) return Format::su2;
   if (path.ends_with(".lb8.ugrid")) return Format::ugrid_little_endian;
   if (path.ends_with(".b8.ugrid")) return Format::ugrid_big_endian;
+  if (path.ends_with(".cgns"))
+    throw InputError(path, 0, "CGNS files are not read directly",
+                     "convert it: alphadot-cgns2su2 " + path + " mesh.su2");
   fail_unknown(path, "the extension tells no known mesh format");
 }
 

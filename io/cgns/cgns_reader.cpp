@@ -1,0 +1,340 @@
+#include "io/cgns/cgns_reader.hpp"
+
+#include <cgnslib.h>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <numeric>
+#include <set>
+#include <vector>
+
+#include "core/error.hpp"
+
+namespace alphadot {
+namespace {
+
+using ElementType = CGNS_ENUMT(ElementType_t);
+
+constexpr auto tetrahedron = CGNS_ENUMV(TETRA_4);
+constexpr auto triangle = CGNS_ENUMV(TRI_3);
+constexpr auto mixed = CGNS_ENUMV(MIXED);
+constexpr const char* rewrite = "the file is damaged: write it again";
+constexpr const char* tetrahedra_only =
+    "export the mesh as one unstructured zone of linear tetrahedra and triangles";
+
+/// Names in a CGNS file have 32 characters; those of families may be paths of them.
+using Name = std::array<char, 1024>;
+
+/// Points and lines: nothing that a mesh of a volume needs.
+bool is_below_surface(ElementType type) {
+  constexpr std::array types{CGNS_ENUMV(NODE), CGNS_ENUMV(BAR_2), CGNS_ENUMV(BAR_3), CGNS_ENUMV(BAR_4),
+                             CGNS_ENUMV(BAR_5)};
+  return std::ranges::find(types, type) != types.end();
+}
+
+class CgnsReader {
+ public:
+  CgnsReader(const std::string& path, const std::function<void(const std::string&)>& tell);
+  ~CgnsReader() { cg_close(file_); }
+  CgnsReader(const CgnsReader&) = delete;
+  CgnsReader& operator=(const CgnsReader&) = delete;
+
+  Mesh read() &&;
+
+ private:
+  struct Triangle {
+    cgsize_t element = 0;  ///< its number in the zone
+    std::array<GlobalIndex, 3> points{};
+    std::size_t name = 0;  ///< in names_
+    bool has_condition = false;
+  };
+
+  [[noreturn]] void fail(const std::string& what, const std::string& remedy = rewrite) const {
+    throw InputError(path_, 0, what, remedy);
+  }
+  /// Throws what the library says when `status` tells of an error.
+  void check(int status) const {
+    if (status != CG_OK)
+      fail(fmt::format("the CGNS library says: {}", cg_get_error()),
+           fmt::format("is the file damaged, or newer than CGNS {:.1f}?", CGNS_VERSION / 1000.0));
+  }
+  /// No count in a file is trusted: `count` numbers of `bytes` must have room in it.
+  void check_size(std::int64_t count, std::int64_t bytes, const std::string& what) const;
+  void choose_zone();
+  void read_points();
+  void read_sections();
+  void read_mixed(const std::string& section, cgsize_t first, cgsize_t last,
+                  const std::vector<cgsize_t>& entries);
+  void add_element(ElementType type, const cgsize_t* points, cgsize_t number, const std::string& section);
+  void read_conditions();
+  void read_condition(int condition);
+  std::string family_of(int condition) const;
+  Triangle& triangle_of(cgsize_t element, const std::string& condition);
+  std::size_t index_of(const std::string& name);
+  void make_patches();
+
+  std::string path_;
+  const std::function<void(const std::string&)>& tell_;
+  std::int64_t bytes_;  ///< length of the file
+  int file_ = 0, base_ = 1, zone_ = 1;
+  cgsize_t point_count_ = 0;
+  Mesh mesh_;
+  std::vector<Triangle> triangles_;
+  std::vector<std::string> names_;
+  std::map<std::string, GlobalIndex> refused_;  ///< elements by type that the solver cannot take
+};
+
+CgnsReader::CgnsReader(const std::string& path, const std::function<void(const std::string&)>& tell)
+    : path_(path), tell_(tell) {
+  std::error_code error;
+  bytes_ = static_cast<std::int64_t>(std::filesystem::file_size(path, error));
+  if (error) fail("cannot read the file: " + error.message(), "check the path and its permissions");
+  int type = 0;
+  if (cg_is_cgns(path.c_str(), &type) != CG_OK)
+    fail("this is no CGNS file, or it is cut short", "check that it was written to the end");
+  check(cg_open(path.c_str(), CG_MODE_READ, &file_));
+  mesh_.file = path;
+}
+
+Mesh CgnsReader::read() && {
+  choose_zone();
+  read_points();
+  read_sections();
+  read_conditions();
+  make_patches();
+  return std::move(mesh_);
+}
+
+void CgnsReader::check_size(std::int64_t count, std::int64_t bytes, const std::string& what) const {
+  if (count < 0 || count > bytes_ / bytes)
+    fail(fmt::format("{} has {} numbers, more than the file has room for", what, count),
+         "the file is damaged, or compressed: h5repack -f NONE takes the compression out");
+}
+
+void CgnsReader::choose_zone() {
+  int bases = 0, zones = 0, cell_dimension = 0, dimension = 0;
+  check(cg_nbases(file_, &bases));
+  if (bases != 1) fail(fmt::format("the file holds {} bases", bases), "write one base a file");
+  Name name{};
+  check(cg_base_read(file_, base_, name.data(), &cell_dimension, &dimension));
+  if (cell_dimension != 3 || dimension != 3)
+    fail(fmt::format("base {} has cells of dimension {} in space of dimension {}", name.data(),
+                     cell_dimension, dimension),
+         "only volume meshes in three dimensions can be used");
+
+  check(cg_nzones(file_, base_, &zones));
+  if (zones == 0) fail("the file holds no zone", "write the mesh into it");
+  std::vector<std::string> found;
+  for (int zone = 1; zone <= zones; ++zone) {
+    std::array<cgsize_t, 9> size{};
+    CGNS_ENUMT(ZoneType_t) type{};
+    check(cg_zone_read(file_, base_, zone, name.data(), size.data()));
+    check(cg_zone_type(file_, base_, zone, &type));
+    if (type != CGNS_ENUMV(Unstructured))
+      fail(fmt::format("zone {} is {}", name.data(), cg_ZoneTypeName(type)), tetrahedra_only);
+    found.emplace_back(name.data());
+    point_count_ = size[0];
+  }
+  if (zones > 1)
+    fail(fmt::format("the file holds {} zones: {}", zones, fmt::join(found, ", ")), tetrahedra_only);
+}
+
+void CgnsReader::read_points() {
+  int coordinates = 0;
+  check(cg_ncoords(file_, base_, zone_, &coordinates));
+  std::set<std::string> names;
+  for (int i = 1; i <= coordinates; ++i) {
+    Name name{};
+    CGNS_ENUMT(DataType_t) type{};
+    check(cg_coord_info(file_, base_, zone_, i, &type, name.data()));
+    check_size(point_count_, type == CGNS_ENUMV(RealDouble) ? 8 : 4, name.data());
+    names.insert(name.data());
+  }
+  const std::array<const char*, 3> axes{"CoordinateX", "CoordinateY", "CoordinateZ"};
+  if (!std::ranges::all_of(axes, [&](const char* axis) { return names.contains(axis); }))
+    fail(fmt::format("the coordinates are \"{}\"", fmt::join(names, ", ")),
+         "only Cartesian CoordinateX, CoordinateY and CoordinateZ can be used");
+
+  mesh_.points.resize(static_cast<std::size_t>(point_count_));
+  std::vector<double> values(mesh_.points.size());
+  for (int axis = 0; axis < 3; ++axis) {
+    cgsize_t first = 1, last = point_count_;
+    check(cg_coord_read(file_, base_, zone_, axes[static_cast<std::size_t>(axis)], CGNS_ENUMV(RealDouble),
+                        &first, &last, values.data()));
+    for (std::size_t i = 0; i < values.size(); ++i) mesh_.points[i][axis] = values[i];
+  }
+}
+
+void CgnsReader::read_sections() {
+  int sections = 0;
+  check(cg_nsections(file_, base_, zone_, &sections));
+  for (int section = 1; section <= sections; ++section) {
+    Name name{};
+    ElementType type{};
+    cgsize_t first = 0, last = 0, size = 0;
+    int sorted = 0, has_parents = 0, nodes = 0;
+    check(cg_section_read(file_, base_, zone_, section, name.data(), &type, &first, &last, &sorted,
+                          &has_parents));
+    const auto count = std::int64_t{last} - first + 1;
+    if (first < 1 || count < 1)
+      fail(fmt::format("section {} has elements {} to {}", name.data(), first, last));
+    if (type != tetrahedron && type != triangle && type != mixed) {
+      if (!is_below_surface(type)) refused_[cg_ElementTypeName(type)] += count;
+      continue;
+    }
+    check(cg_ElementDataSize(file_, base_, zone_, section, &size));
+    check_size(size, 4, fmt::format("section {}", name.data()));
+    std::vector<cgsize_t> entries(static_cast<std::size_t>(size));
+    if (type == mixed) {
+      check(cg_poly_elements_read(file_, base_, zone_, section, entries.data(), nullptr, nullptr));
+      read_mixed(name.data(), first, last, entries);
+      continue;
+    }
+    check(cg_elements_read(file_, base_, zone_, section, entries.data(), nullptr));
+    check(cg_npe(type, &nodes));
+    if (std::ssize(entries) != count * nodes)
+      fail(fmt::format("section {} has {} elements in {} numbers", name.data(), count, size));
+    for (std::int64_t i = 0; i < count; ++i)
+      add_element(type, entries.data() + i * nodes, static_cast<cgsize_t>(first + i), name.data());
+  }
+  if (!refused_.empty()) {
+    std::string list;
+    for (const auto& [type, count] : refused_)
+      list += fmt::format("{}{} {}", list.empty() ? "" : ", ", count, type);
+    fail(fmt::format("the mesh holds {}, but only TETRA_4 and TRI_3 can be used", list), tetrahedra_only);
+  }
+  if (mesh_.cells.empty()) fail("the mesh has no tetrahedra", "write the volume elements too");
+}
+
+/// Elements of several types, each behind the number of its type.
+void CgnsReader::read_mixed(const std::string& section, cgsize_t first, cgsize_t last,
+                            const std::vector<cgsize_t>& entries) {
+  std::size_t at = 0;
+  for (std::int64_t number = first; number <= last; ++number) {
+    int nodes = 0;
+    if (at == entries.size()) fail(fmt::format("section {} ends before element {}", section, number));
+    const auto type = static_cast<ElementType>(entries[at++]);
+    if (type <= 0 || type >= NofValidElementTypes || cg_npe(type, &nodes) != CG_OK || nodes <= 0)
+      fail(fmt::format("element {} in section {} has the unknown type {}", number, section, entries[at - 1]));
+    if (static_cast<std::size_t>(nodes) > entries.size() - at)
+      fail(fmt::format("section {} ends inside element {}", section, number));
+    add_element(type, entries.data() + at, static_cast<cgsize_t>(number), section);
+    at += static_cast<std::size_t>(nodes);
+  }
+}
+
+void CgnsReader::add_element(ElementType type, const cgsize_t* points, cgsize_t number,
+                             const std::string& section) {
+  const auto set_points = [&](auto& ids) {
+    for (std::size_t k = 0; k < ids.size(); ++k) {
+      if (points[k] < 1 || points[k] > point_count_)
+        fail(fmt::format("element {} in section {} uses point {} of {}", number, section, points[k],
+                         point_count_));
+      ids[k] = points[k] - 1;
+    }
+  };
+  if (type == tetrahedron)
+    set_points(mesh_.cells.emplace_back());
+  else if (type == triangle)
+    set_points(triangles_.emplace_back(Triangle{number, {}, index_of(section), false}).points);
+  else if (!is_below_surface(type))
+    ++refused_[cg_ElementTypeName(type)];
+}
+
+void CgnsReader::read_conditions() {
+  std::ranges::stable_sort(triangles_, {}, &Triangle::element);
+  int conditions = 0;
+  check(cg_nbocos(file_, base_, zone_, &conditions));
+  for (int condition = 1; condition <= conditions; ++condition) read_condition(condition);
+}
+
+void CgnsReader::read_condition(int condition) {
+  Name name{};
+  CGNS_ENUMT(BCType_t) kind{};
+  CGNS_ENUMT(PointSetType_t) set{};
+  CGNS_ENUMT(DataType_t) normal_type{};
+  CGNS_ENUMT(GridLocation_t) location{};
+  cgsize_t size = 0, normal_size = 0;
+  int normal_index[3] = {}, data_sets = 0;
+  check(cg_boco_info(file_, base_, zone_, condition, name.data(), &kind, &set, &size, normal_index,
+                     &normal_size, &normal_type, &data_sets));
+  check(cg_boco_gridlocation_read(file_, base_, zone_, condition, &location));
+  const bool is_range = set == CGNS_ENUMV(PointRange) || set == CGNS_ENUMV(ElementRange);
+  const bool is_elements =
+      set == CGNS_ENUMV(ElementRange) || set == CGNS_ENUMV(ElementList) || location == CGNS_ENUMV(FaceCenter);
+  if (!is_elements)
+    return tell_(
+        fmt::format("boundary condition {} is given by {}, not by faces: passed over, its triangles keep the "
+                    "names of their sections",
+                    name.data(), cg_GridLocationName(location)));
+  check_size(size, 4, fmt::format("boundary condition {}", name.data()));
+  if (is_range && size != 2)
+    fail(fmt::format("boundary condition {} has a range of {} ends", name.data(), size));
+  std::vector<cgsize_t> elements(static_cast<std::size_t>(size));
+  check(cg_boco_read(file_, base_, zone_, condition, elements.data(), nullptr));
+  if (is_range) {
+    const auto [first, last] = std::pair(elements[0], elements[1]);
+    if (first > last || std::int64_t{last} - first >= std::ssize(triangles_))
+      fail(fmt::format("boundary condition {} has elements {} to {}", name.data(), first, last));
+    elements.resize(static_cast<std::size_t>(last - first) + 1);
+    std::iota(elements.begin(), elements.end(), first);
+  }
+  const auto family = family_of(condition);
+  const auto index = index_of(family.empty() ? name.data() : family);
+  for (const auto element : elements) {
+    Triangle& found = triangle_of(element, name.data());
+    if (found.has_condition && found.name != index)
+      fail(fmt::format("element {} belongs to two boundary conditions, {} and {}", element,
+                       names_[found.name], names_[index]),
+           "give every triangle one");
+    found.has_condition = true;
+    found.name = index;
+  }
+}
+
+/// The name of a condition's family, or nothing.
+std::string CgnsReader::family_of(int condition) const {
+  check(cg_goto(file_, base_, "Zone_t", zone_, "ZoneBC_t", 1, "BC_t", condition, "end"));
+  Name name{};
+  const int status = cg_famname_read(name.data());
+  if (status == CG_NODE_NOT_FOUND) return "";
+  check(status);
+  return name.data();
+}
+
+CgnsReader::Triangle& CgnsReader::triangle_of(cgsize_t element, const std::string& condition) {
+  const auto found = std::ranges::lower_bound(triangles_, element, {}, &Triangle::element);
+  if (found == triangles_.end() || found->element != element)
+    fail(fmt::format("boundary condition {} lists element {}, which is no TRI_3", condition, element));
+  return *found;
+}
+
+std::size_t CgnsReader::index_of(const std::string& name) {
+  if (!names_.empty() && names_.back() == name) return names_.size() - 1;
+  const auto index = static_cast<std::size_t>(std::ranges::find(names_, name) - names_.begin());
+  if (index == names_.size()) names_.push_back(name);
+  return index;
+}
+
+/// Patches in the order of their first triangles.
+void CgnsReader::make_patches() {
+  std::vector<Patch*> patch_of(names_.size(), nullptr);
+  mesh_.patches.reserve(names_.size());
+  for (const auto& [element, points, name, has_condition] : triangles_) {
+    if (!patch_of[name]) patch_of[name] = &mesh_.patches.emplace_back(Patch{names_[name], {}});
+    patch_of[name]->triangles.push_back(points);
+  }
+}
+
+}  // namespace
+
+Mesh read_cgns(const std::string& path, const std::function<void(const std::string&)>& tell) {
+  return CgnsReader(path, tell).read();
+}
+
+}  // namespace alphadot
