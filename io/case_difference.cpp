@@ -17,6 +17,7 @@ constexpr std::string_view free_keys[] = {"title",
                                           "output.",
                                           "steady.",
                                           "checkpoint.",
+                                          "derivatives.",
                                           "unsteady.cycles",
                                           "unsteady.inner_tolerance",
                                           "unsteady.max_inner"};

@@ -26,17 +26,18 @@ std::string file_name(const std::string& path) {
   return fs::path(path).filename().string();
 }
 
-/// Throws what keeps a case from going on from a checkpoint.
-void check_belongs(const RestartPoint& point, const Setup& setup) {
+/// The case that a checkpoint was made with. Throws what keeps the present one from going on from it.
+Case check_belongs(const RestartPoint& point, const Setup& setup) {
   const auto& info = point.head.history.info;
   if (info.mesh_hash != setup.mesh.hash)
     throw InputError(point.path, 0,
                      fmt::format("belongs to another mesh: its hash is {}, that of {} is {}", info.mesh_hash,
                                  setup.mesh.file, setup.mesh.hash),
                      "restart with the mesh that the checkpoint was made with");
-  const Case before = parse_case(info.case_text, point.path);
+  Case before = parse_case(info.case_text, point.path);
   auto problems = contradictions(before, setup.settings, point.head.phase == "motion");
   if (!problems.empty()) throw InputError(std::move(problems));
+  return before;
 }
 
 }  // namespace
@@ -72,7 +73,7 @@ void Checkpoints::begin_from(const std::string& file) {
   }
   comm_.on_all([&] {
     point.head = read_checkpoint_head(point.path);
-    check_belongs(point, setup_);
+    case_before_ = check_belongs(point, setup_);
   });
   const auto info = history_info(setup_.settings, setup_.mesh.hash);
   if (point.head.history.info.version != info.version)

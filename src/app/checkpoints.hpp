@@ -28,6 +28,8 @@ class Checkpoints {
   void begin_from(const std::string& file);
   /// The head of the checkpoint that the run begins from, if any.
   const CheckpointHead* restart() const { return restart_ ? &restart_->head : nullptr; }
+  /// The case that it was made with.
+  const Case& case_before() const { return case_before_; }
   /// Its states. Collective.
   void read(const std::vector<CheckpointField>& fields) const;
 
@@ -51,6 +53,7 @@ class Checkpoints {
   CheckpointFile file_;
   std::optional<CheckpointFolder> in_folder_;  ///< on the root
   std::optional<RestartPoint> restart_;
+  Case case_before_;
   Wish wish_;
   std::string stop_reason_;
   std::string latest_;  ///< file name of the last whole checkpoint, on the root

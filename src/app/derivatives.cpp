@@ -2,6 +2,7 @@
 // state.
 #include <fmt/format.h>
 
+#include <atomic>
 #include <cmath>
 #include <vector>
 
@@ -12,6 +13,9 @@
 #include "analysis/table.hpp"
 #include "app/flow_case.hpp"
 #include "app/loads.hpp"
+#include "app/responses.hpp"
+#include "app/stop.hpp"
+#include "app/watchdog.hpp"
 #include "core/error.hpp"
 #include "core/log.hpp"
 #include "core/timer.hpp"
@@ -49,15 +53,19 @@ bool is_rate(Variable variable) {
   return variable != Variable::alpha && variable != Variable::beta;
 }
 
-/// Solves for some variables; `rates_of` holds the solutions whose rates these are, or is empty.
-std::vector<Sensitivity> solve(SensitivitySolver& solver, const FreestreamSettings& stream,
-                               const std::vector<Variable>& variables,
-                               const std::vector<Sensitivity>& rates_of) {
-  std::vector<SensitivityProblem> problems;
-  for (std::size_t i = 0; i < variables.size(); ++i)
-    problems.push_back({std::string(name(variables[i])), change_of(variables[i], stream),
-                        rates_of.empty() ? std::span<const Primitive<Real>>{} : rates_of[i].field});
-  return solver.solve(problems);
+/// The problem of one variable. Those of the rates of the angles need the responses to the angles.
+SensitivityProblem problem_of(Variable variable, const FlowCase& flow, const Responses& responses) {
+  SensitivityProblem out{std::string(name(variable)), change_of(variable, flow.settings().freestream), {}};
+  if (variable == Variable::alphadot) out.rate = responses.at(Variable::alpha).field;
+  if (variable == Variable::betadot) out.rate = responses.at(Variable::beta).field;
+  return out;
+}
+
+/// Variables that are solved for together, in this order: angles and rotations, then the rates of the angles.
+std::vector<std::vector<Variable>> groups_of(bool half_model) {
+  using enum Variable;
+  if (half_model) return {{alpha, q}, {alphadot}};
+  return {{alpha, beta, q}, {p, r}, {alphadot, betadot}};
 }
 
 void add_column(DerivativeSet& derivatives, Variable variable, const Sensitivity& solution,
@@ -73,27 +81,41 @@ void add_column(DerivativeSet& derivatives, Variable variable, const Sensitivity
                solution.relative_residual);
 }
 
-/// Angles and rotations first, then the rates of the angles, whose right-hand sides are those solutions.
+/// Solves for all variables but those that the checkpoint has, with a checkpoint after each group. Nothing
+/// when the run was stopped.
 DerivativeSet solve_all(FlowCase& flow) {
   const Case& settings = flow.settings();
-  std::vector<Variable> angles{Variable::alpha}, rotations{Variable::q}, angle_rates{Variable::alphadot};
-  if (!settings.reference.half_model) {
-    angles.push_back(Variable::beta);
-    rotations.insert(rotations.end(), {Variable::p, Variable::r});
-    angle_rates.push_back(Variable::betadot);
-  }
-  DerivativeSet out;
-  const auto add_all = [&](const std::vector<Variable>& variables,
-                           const std::vector<Sensitivity>& solutions) {
-    for (std::size_t i = 0; i < variables.size(); ++i) add_column(out, variables[i], solutions[i], settings);
+  Responses responses(flow);
+  std::atomic<GlobalIndex> linear_iterations{0};
+  const Watchdog watchdog(
+      settings.checkpoint.watchdog_minutes, [&] { return linear_iterations.load(); }, flow.communicator());
+  const auto go_on = [&] {
+    ++linear_iterations;
+    return !flow.checkpoints().poll(false).stop;
   };
-  std::vector<Variable> direct = angles;
-  direct.insert(direct.end(), rotations.begin(), rotations.end());
-  SensitivitySolver solver(flow.iteration(), flow.conditions(), settings.derivatives);
-  const auto solutions = solve(solver, settings.freestream, direct, {});
-  add_all(direct, solutions);
-  add_all(angle_rates, solve(solver, settings.freestream, angle_rates, solutions));
+  DerivativeSet out;
+  SensitivitySolver solver(flow.iteration(), flow.conditions(), settings.derivatives, go_on);
+  for (const auto& group : groups_of(settings.reference.half_model)) {
+    if (!responses.has(group.front())) {
+      std::vector<SensitivityProblem> problems;
+      for (const auto variable : group) problems.push_back(problem_of(variable, flow, responses));
+      auto solved = solver.solve(problems);
+      if (solved.empty()) return {};
+      for (std::size_t i = 0; i < group.size(); ++i) responses.add(group[i], std::move(solved[i]));
+      responses.save();
+    }
+    for (const auto variable : group) add_column(out, variable, responses.at(variable), settings);
+  }
   return out;
+}
+
+/// Derivatives are about a steady state, which a checkpoint made in a motion no longer has.
+void check_restart(const FlowCase& flow) {
+  const auto* restart = flow.checkpoints().restart();
+  if (restart && restart->phase == "motion")
+    throw InputError(
+        flow.folder(), 0, "the checkpoint to go on from was made in a motion",
+        "name that of the steady state with --restart FILE, or begin in another folder with --out DIR");
 }
 
 /// The same numbers for people, spreadsheets, AVL's readers and JSBSim.
@@ -118,7 +140,10 @@ void print_table(const Case& settings, const DerivativeSet& derivatives, const s
 }  // namespace
 
 RunStatus derivatives_verb(const CaseArguments& arguments, const Communicator& comm) {
+  const SignalListener signals;
   FlowCase flow(arguments, comm);
+  check_restart(flow);
+  flow.announce();
   DerivativeSet derivatives;
   RunStatus status = RunStatus::error;
   try {
@@ -127,6 +152,10 @@ RunStatus derivatives_verb(const CaseArguments& arguments, const Communicator& c
     const Real steady_cpu = comm.sum(steady_time.cpu());
     const Timer linear_time;
     if (status != RunStatus::interrupted) derivatives = solve_all(flow);
+    if (status != RunStatus::interrupted && derivatives.empty()) {
+      status = RunStatus::interrupted;
+      flow.set_message(flow.checkpoints().stop_reason());
+    }
     spdlog::info("steady state {:.1f} s of processor, linear solves {:.1f} s", steady_cpu,
                  comm.sum(linear_time.cpu()));
   } catch (const DivergedError& error) {

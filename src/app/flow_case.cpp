@@ -141,12 +141,12 @@ void FlowCase::restore_steady(const CheckpointHead& head) {
   }
 }
 
-void FlowCase::save_steady(const SteadyState& state) {
-  auto head = checkpoint_head("steady");
-  head.numbers["iteration"] = {static_cast<Real>(state.iteration)};
-  head.numbers["cfl"] = {state.cfl};
-  head.numbers["residuals"] = {state.first_residual, state.previous_residual};
-  save(head);
+CheckpointHead FlowCase::steady_head(std::string phase) const {
+  auto out = checkpoint_head(std::move(phase));
+  out.numbers["iteration"] = {static_cast<Real>(steady_state_.iteration)};
+  out.numbers["cfl"] = {steady_state_.cfl};
+  out.numbers["residuals"] = {steady_state_.first_residual, steady_state_.previous_residual};
+  return out;
 }
 
 RunStatus FlowCase::march() {
@@ -156,36 +156,36 @@ RunStatus FlowCase::march() {
     return RunStatus::converged;
   }
   const auto now = conditions();
-  SteadyState state;
   if (restart) {
     const auto& numbers = restart->numbers;
-    state = {static_cast<int>(numbers.at("iteration").at(0)), numbers.at("cfl").at(0),
-             numbers.at("residuals").at(0), numbers.at("residuals").at(1)};
+    steady_state_ = {static_cast<int>(numbers.at("iteration").at(0)), numbers.at("cfl").at(0),
+                     numbers.at("residuals").at(0), numbers.at("residuals").at(1)};
     restore();
   } else {
     iteration_.set_uniform(now.free_stream);
   }
-  int saved = state.iteration;
+  int saved = steady_state_.iteration;
   ProgressLines lines(settings());
   const Watchdog watchdog(
       settings().checkpoint.watchdog_minutes, [&] { return iteration_.iterations(); }, comm_);
   const int interval = settings().checkpoint.iterations;
   const auto observe = [&](const SteadyProgress& p) {
     lines.show(p);
-    state = p.state;
+    steady_state_ = p.state;
     const Wish wish = checkpoints_.poll(interval > 0 && p.iteration % interval == 0);
     if (wish.save && p.resumable) {
-      save_steady(state);
-      saved = state.iteration;
+      save(steady_head("steady"));
+      saved = steady_state_.iteration;
     }
     return !(wish.stop && p.resumable);
   };
-  auto result = march_to_steady(iteration_, now, settings().steady, settings().space.order, observe, state);
+  auto result =
+      march_to_steady(iteration_, now, settings().steady, settings().space.order, observe, steady_state_);
   if (result.status == RunStatus::diverged) {
     spdlog::warn("the steady march lost its way in iteration {}: beginning again with gentler steps",
                  result.iterations);
     iteration_.set_uniform(now.free_stream);
-    state = {};
+    steady_state_ = {};
     result = march_to_steady(iteration_, now, gentler(settings().steady), settings().space.order, observe);
   }
   steady_report_ = result.report;
@@ -197,7 +197,7 @@ RunStatus FlowCase::march() {
                            settings().steady.orders, result.iterations);
     spdlog::warn("{}", message_);
   }
-  if (state.iteration > saved) save_steady(state);
+  if (steady_state_.iteration > saved) save(steady_head("steady"));
   return result.status;
 }
 

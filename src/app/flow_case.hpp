@@ -39,12 +39,15 @@ class FlowCase {
   RunStatus march();
 
   Checkpoints& checkpoints() { return checkpoints_; }
+  const Checkpoints& checkpoints() const { return checkpoints_; }
   /// Writes a checkpoint of the flow and of `others`, fields of the march that the head belongs to.
   void save(const CheckpointHead& head, std::vector<CheckpointField> others = {});
   /// Reads the same from the checkpoint that the run begins from.
   void restore(std::vector<CheckpointField> others = {});
-  /// A checkpoint's head with all that is known of the steady state.
+  /// A checkpoint's head with the loads of the steady state.
   CheckpointHead checkpoint_head(std::string phase) const;
+  /// The same with all that the steady march needs to go on.
+  CheckpointHead steady_head(std::string phase) const;
   /// Why the run ended as it did, for the result.
   void set_message(std::string message) { message_ = std::move(message); }
 
@@ -64,7 +67,6 @@ class FlowCase {
   void restore_steady(const CheckpointHead& head);
   /// Frozen factors of the limiter as they are kept in checkpoints, or none.
   std::vector<Five<Real>> frozen_factors();
-  void save_steady(const SteadyState& state);
 
   const Communicator& comm_;
   Timer timer_;
@@ -74,6 +76,7 @@ class FlowCase {
   Discretization discretization_;
   ImplicitIteration iteration_;
   Motion motion_;
+  SteadyState steady_state_;
   FlowReport steady_report_;
   std::string message_;
 };

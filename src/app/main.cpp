@@ -42,6 +42,14 @@ void add_case_arguments(CLI::App& verb, CaseArguments& arguments) {
       ->take_all();
 }
 
+/// Where a run writes and what it begins from; returns the option of the latter.
+const CLI::Option* add_run_arguments(CLI::App& verb, CaseArguments& arguments) {
+  verb.add_option("--out", arguments.folder, "Folder of the run (default: runs/<name of the case file>)");
+  return verb.add_option("--restart", "Go on from a checkpoint (default: the newest of the folder)")
+      ->type_name("FILE")
+      ->expected(0, 1);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -61,17 +69,12 @@ int main(int argc, char** argv) {
   CaseArguments arguments;
   auto& run = *app.add_subcommand("run", "Steady state, motion and derivatives of a case");
   add_case_arguments(run, arguments);
-  run.add_option("--out", arguments.folder, "Folder of the run (default: runs/<name of the case file>)");
-
-  auto* restart = run.add_option("--restart", "Go on from a checkpoint (default: the newest of the folder)")
-                      ->type_name("FILE")
-                      ->expected(0, 1);
+  const auto* run_restart = add_run_arguments(run, arguments);
 
   auto& derivatives = *app.add_subcommand(
       "derivatives", "Every stability derivative of a case from linear solves, no time stepping");
   add_case_arguments(derivatives, arguments);
-  derivatives.add_option("--out", arguments.folder,
-                         "Folder of the run (default: runs/<name of the case file>)");
+  const auto* derivatives_restart = add_run_arguments(derivatives, arguments);
 
   auto& check = *app.add_subcommand("check", "Check case and mesh without running");
   add_case_arguments(check, arguments);
@@ -94,7 +97,8 @@ int main(int argc, char** argv) {
     if (comm.is_root()) code = app.exit(error);
     return code == 0 ? 0 : 2;
   }
-  if (*restart) arguments.restart = restart->results().empty() ? "" : restart->results().front();
+  for (const auto* restart : {run_restart, derivatives_restart})
+    if (*restart) arguments.restart = restart->results().empty() ? "" : restart->results().front();
   set_up_log(comm.is_root(), quiet);
 
   return guarded(comm, [&] {

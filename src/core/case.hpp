@@ -86,6 +86,8 @@ struct DerivativeSettings {
   Real orders = 3;      ///< decades that the preconditioned residual must drop
   int directions = 80;  ///< of the Krylov space, shared by all right-hand sides, before it begins anew
   int max_iterations = 300;
+
+  bool operator==(const DerivativeSettings&) const = default;
 };
 
 struct OutputSettings {

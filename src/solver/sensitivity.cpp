@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "core/error.hpp"
 
@@ -95,12 +96,13 @@ class Lockstep {
  public:
   Lockstep(ImplicitIteration& iteration, const Conditions<Real>& conditions,
            std::span<const SensitivityProblem> problems, const DerivativeSettings& settings,
-           SearchSpace& space)
+           SearchSpace& space, const std::function<bool()>& go_on)
       : iteration_(iteration),
         comm_(iteration.communicator()),
         problems_(problems),
         settings_(settings),
         space_(space),
+        go_on_(go_on),
         tangent_(iteration.discretization(), comm_, iteration.flow(), conditions, iteration.moment_center()) {
     const auto cells = static_cast<std::size_t>(iteration.discretization().domain().owned_cells);
     for (std::size_t k = 0; k < N; ++k) {
@@ -111,12 +113,14 @@ class Lockstep {
     }
   }
 
-  std::array<Sensitivity, N> solve() {
+  /// Nothing when it was stopped.
+  std::optional<std::array<Sensitivity, N>> solve() {
     evaluate();
     if (settings_.method == SensitivityMethod::march)
       march();
     else
       gmres();
+    if (is_stopped_) return std::nullopt;
     for (std::size_t k = 0; k < N; ++k) finish(results_[k], records_[k]);
     return std::move(results_);
   }
@@ -178,7 +182,13 @@ class Lockstep {
         if (!(records_[k].drop() < 1e6))
           throw DivergedError("the march of the response to " + problems_[k].name +
                               " grows: the steady state hides an unstable cell");
+      if (is_stopped()) return;
     }
+  }
+
+  bool is_stopped() {
+    is_stopped_ = is_stopped_ || (go_on_ && !go_on_());
+    return is_stopped_;
   }
 
   /// Every iteration looks along the present corrections, in all problems along those of all.
@@ -196,6 +206,7 @@ class Lockstep {
         reduce_all(first);
         ++used;
         for (auto& result : results_) ++result.iterations;
+        if (is_stopped()) return;
       }
     }
   }
@@ -241,6 +252,8 @@ class Lockstep {
   std::span<const SensitivityProblem> problems_;
   DerivativeSettings settings_;
   SearchSpace& space_;
+  const std::function<bool()>& go_on_;
+  bool is_stopped_ = false;
   Real target_ = std::pow(10.0, -settings_.orders);
   Tangent<N> tangent_;
   std::array<Sensitivity, N> results_;
@@ -249,21 +262,25 @@ class Lockstep {
   std::array<States, N> corrections_;
 };
 
+/// False when it was stopped.
 template <int N>
-void solve_group(ImplicitIteration& iteration, const Conditions<Real>& conditions,
+bool solve_group(ImplicitIteration& iteration, const Conditions<Real>& conditions,
                  std::span<const SensitivityProblem> problems, const DerivativeSettings& settings,
-                 SearchSpace& space, std::vector<Sensitivity>& out) {
-  for (auto& result : Lockstep<N>(iteration, conditions, problems, settings, space).solve())
-    out.push_back(std::move(result));
+                 SearchSpace& space, const std::function<bool()>& go_on, std::vector<Sensitivity>& out) {
+  auto results = Lockstep<N>(iteration, conditions, problems, settings, space, go_on).solve();
+  if (!results) return false;
+  for (auto& result : *results) out.push_back(std::move(result));
+  return true;
 }
 
 }  // namespace
 
 SensitivitySolver::SensitivitySolver(ImplicitIteration& iteration, const Conditions<Real>& conditions,
-                                     const DerivativeSettings& settings)
+                                     const DerivativeSettings& settings, std::function<bool()> go_on)
     : iteration_(iteration),
       conditions_(conditions),
       settings_(settings),
+      go_on_(std::move(go_on)),
       space_(static_cast<std::size_t>(iteration.discretization().domain().owned_cells), settings.directions,
              iteration.communicator()) {
   iteration.linearise(conditions, {.cfl = linear_cfl});
@@ -272,10 +289,12 @@ SensitivitySolver::SensitivitySolver(ImplicitIteration& iteration, const Conditi
 std::vector<Sensitivity> SensitivitySolver::solve(const std::vector<SensitivityProblem>& problems) {
   std::vector<Sensitivity> out;
   for (std::size_t begin = 0; begin < problems.size();) {
-    const auto group = std::span(problems).subspan(begin, std::min<std::size_t>(3, problems.size() - begin));
-    if (group.size() == 3) solve_group<3>(iteration_, conditions_, group, settings_, space_, out);
-    if (group.size() == 2) solve_group<2>(iteration_, conditions_, group, settings_, space_, out);
-    if (group.size() == 1) solve_group<1>(iteration_, conditions_, group, settings_, space_, out);
+    const auto group =
+        std::span(problems).subspan(begin, std::min<std::size_t>(at_a_time, problems.size() - begin));
+    const auto solve = group.size() == 3   ? solve_group<3>
+                       : group.size() == 2 ? solve_group<2>
+                                           : solve_group<1>;
+    if (!solve(iteration_, conditions_, group, settings_, space_, go_on_, out)) return {};
     begin += group.size();
   }
   return out;

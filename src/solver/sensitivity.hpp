@@ -1,6 +1,7 @@
 // Linear response of a steady flow to small changes of its conditions: the exact limit of low frequency.
 #pragma once
 
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -37,11 +38,16 @@ struct Sensitivity {
 /// problems share the directions found so far.
 class SensitivitySolver {
  public:
-  /// The flow of `iteration` must be steady under `conditions`. Collective.
-  SensitivitySolver(ImplicitIteration& iteration, const Conditions<Real>& conditions,
-                    const DerivativeSettings& settings);
+  /// So many problems are solved together.
+  static constexpr std::size_t at_a_time = 3;
 
-  /// Throws DivergedError when a march grows: the steady state then hides an unstable cell. Collective.
+  /// The flow of `iteration` must be steady under `conditions`. `go_on`, when given, is asked after each
+  /// linear iteration, on every rank. Collective.
+  SensitivitySolver(ImplicitIteration& iteration, const Conditions<Real>& conditions,
+                    const DerivativeSettings& settings, std::function<bool()> go_on = {});
+
+  /// Nothing when `go_on` said no. Throws DivergedError when a march grows: the steady state then hides an
+  /// unstable cell. Collective.
   std::vector<Sensitivity> solve(const std::vector<SensitivityProblem>& problems);
 
   std::size_t bytes() const { return space_.bytes(); }
@@ -50,6 +56,7 @@ class SensitivitySolver {
   ImplicitIteration& iteration_;
   Conditions<Real> conditions_;
   DerivativeSettings settings_;
+  std::function<bool()> go_on_;
   SearchSpace space_;
 };
 

@@ -40,27 +40,27 @@ def settings(**values: object) -> list[str]:
     return [part for name, value in values.items() for part in ("--set", f"{name.replace('_', '.', 1)}={value}")]
 
 
-def command(out: Path, *arguments: object, ranks: int = 1) -> list[str]:
+def command(out: Path, *arguments: object, ranks: int = 1, verb: str = "run") -> list[str]:
     launcher = [os.environ["MPIEXEC"], "-n", str(ranks)] if ranks > 1 else []
-    return [*launcher, PROGRAM, "run", "case.toml", "--out", str(out), *map(str, arguments)]
+    return [*launcher, PROGRAM, verb, "case.toml", "--out", str(out), *map(str, arguments)]
 
 
-def run(folder: Path, out: Path, *arguments: object, ranks: int = 1, **options: object) -> subprocess.CompletedProcess[str]:
+def run(
+    folder: Path, out: Path, *arguments: object, ranks: int = 1, verb: str = "run", **options: object
+) -> subprocess.CompletedProcess[str]:
     """A run to its end; raises subprocess.TimeoutExpired when it hangs."""
-    return subprocess.run(
-        command(out, *arguments, ranks=ranks), cwd=folder, capture_output=True, text=True, timeout=SECONDS, **options
-    )
+    line = command(out, *arguments, ranks=ranks, verb=verb)
+    return subprocess.run(line, cwd=folder, capture_output=True, text=True, timeout=SECONDS, **options)
 
 
 class LiveRun:
     """A run in the background, in a process group of its own, its messages in a file."""
 
-    def __init__(self, folder: Path, out: Path, *arguments: object, ranks: int = 1) -> None:
+    def __init__(self, folder: Path, out: Path, *arguments: object, ranks: int = 1, verb: str = "run") -> None:
         self.log = folder / "log"
+        line = command(out, *arguments, ranks=ranks, verb=verb)
         with open(self.log, "w") as log:
-            self.process = subprocess.Popen(
-                command(out, *arguments, ranks=ranks), cwd=folder, stdout=log, stderr=log, start_new_session=True
-            )
+            self.process = subprocess.Popen(line, cwd=folder, stdout=log, stderr=log, start_new_session=True)
         self.ranks = ranks
 
     def text(self) -> str:

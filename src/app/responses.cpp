@@ -1,0 +1,86 @@
+#include "app/responses.hpp"
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/log.hpp"
+
+namespace alphadot {
+
+namespace {
+
+constexpr Variable solved_for[] = {Variable::alpha, Variable::beta,     Variable::p,      Variable::q,
+                                   Variable::r,     Variable::alphadot, Variable::betadot};
+
+std::string entry_of(Variable variable) {
+  return "response_" + std::string(name(variable));
+}
+
+/// What a checkpoint keeps of a response besides its field.
+std::vector<Real> numbers_of(const Sensitivity& response) {
+  std::vector<Real> out{static_cast<Real>(response.iterations), response.relative_residual};
+  const auto append = [&](const Load& load) {
+    for (int i = 0; i < 3; ++i) out.push_back(load.force[i]);
+    for (int i = 0; i < 3; ++i) out.push_back(load.moment[i]);
+  };
+  append(response.total);
+  append(response.total_error);
+  for (const Load& load : response.loads) append(load);
+  return out;
+}
+
+/// The way back; the field has zeros.
+Sensitivity response_of(Variable variable, const std::vector<Real>& numbers, std::size_t cells) {
+  std::size_t next = 2;
+  const auto take = [&] {
+    Load load;
+    for (int i = 0; i < 3; ++i) load.force[i] = numbers.at(next++);
+    for (int i = 0; i < 3; ++i) load.moment[i] = numbers.at(next++);
+    return load;
+  };
+  Sensitivity out;
+  out.name = name(variable);
+  out.field.resize(cells);
+  out.iterations = static_cast<int>(numbers.at(0));
+  out.relative_residual = numbers.at(1);
+  out.total = take();
+  out.total_error = take();
+  while (next < numbers.size()) out.loads.push_back(take());
+  return out;
+}
+
+bool is_of_this_flow(const CheckpointHead& head, const FlowCase& flow) {
+  const auto now = flow.steady_head("");
+  for (const char* entry : {"iteration", "cfl", "residuals"})
+    if (head.numbers.at(entry) != now.numbers.at(entry)) return false;
+  return flow.checkpoints().case_before().derivatives == flow.settings().derivatives;
+}
+
+}  // namespace
+
+Responses::Responses(FlowCase& flow) : flow_(flow) {
+  const auto* restart = flow.checkpoints().restart();
+  if (!restart || !is_of_this_flow(*restart, flow)) return;
+  const auto cells = static_cast<std::size_t>(flow.setup().domain.owned_cells);
+  std::vector<CheckpointField> fields;
+  for (const auto variable : solved_for)
+    if (const auto numbers = restart->numbers.find(entry_of(variable)); numbers != restart->numbers.end()) {
+      auto& response = solved_[variable] = response_of(variable, numbers->second, cells);
+      fields.push_back({entry_of(variable), response.field});
+    }
+  flow.checkpoints().read(fields);
+  if (!fields.empty()) spdlog::info("{} linear solves are taken from the checkpoint", fields.size());
+}
+
+void Responses::save() {
+  auto head = flow_.steady_head("derivatives");
+  std::vector<CheckpointField> fields;
+  for (auto& [variable, response] : solved_) {
+    head.numbers[entry_of(variable)] = numbers_of(response);
+    fields.push_back({entry_of(variable), response.field});
+  }
+  flow_.save(head, std::move(fields));
+}
+
+}  // namespace alphadot
