@@ -212,4 +212,12 @@ CheckpointHead read_checkpoint_head(const std::string& path) {
   return head;
 }
 
+CheckpointStates read_checkpoint_states(const std::string& path) {
+  const auto file = hdf5::File::open(path);
+  const auto states = file.group("VTKHDF/CellData");
+  CheckpointStates out{states.names(), 0};
+  for (const auto& name : out.names) out.cells = states.dataset(name).rows();
+  return out;
+}
+
 }  // namespace alphadot

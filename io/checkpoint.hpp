@@ -21,7 +21,7 @@ namespace alphadot {
 
 /// What a checkpoint holds besides the states of the cells.
 struct CheckpointHead {
-  std::string phase;  ///< what the run was doing: "steady" or "motion"
+  std::string phase;  ///< what the run was doing: "steady", "motion" or "derivatives"
   /// Counters and norms of the march by name. Reals keep every bit; integers up to 2^53 are exact.
   std::map<std::string, std::vector<Real>> numbers;
   std::string message;  ///< of the run so far
@@ -59,5 +59,14 @@ class CheckpointFile {
 /// Reads the head of a checkpoint whose seal is whole. For one rank; throws InputError when the file is
 /// damaged or of another kind or version.
 CheckpointHead read_checkpoint_head(const std::string& path);
+
+/// The states in a checkpoint whose seal is whole: their names, and for how many cells.
+struct CheckpointStates {
+  std::vector<std::string> names;
+  GlobalIndex cells = 0;
+};
+
+/// For one rank; throws InputError.
+CheckpointStates read_checkpoint_states(const std::string& path);
 
 }  // namespace alphadot

@@ -2,6 +2,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -9,7 +11,9 @@
 #include "app/extraction.hpp"
 #include "app/verbs.hpp"
 #include "core/error.hpp"
+#include "io/checkpoint.hpp"
 #include "io/mesh_reader.hpp"
+#include "io/seal.hpp"
 
 namespace alphadot {
 
@@ -33,6 +37,40 @@ void describe_history(const std::string& file) {
       info.freestream.mach, info.mesh_hash, info.version, fmt::join(history.names(), " "), info.conventions);
 }
 
+/// Where the march of a checkpoint stands.
+std::string place_of(const CheckpointHead& head) {
+  const auto number = [&](const char* name, std::size_t i = 0) { return head.numbers.at(name).at(i); };
+  if (head.phase == "motion") {
+    const auto& history = head.history;
+    const Real time = history.steps() > 0 ? history.column("t_star").back() : 0;
+    return fmt::format("motion ({}), step {}, t* = {:.6g}", motion_name(history.info.motion.kind),
+                       number("step"), time);
+  }
+  const auto drop = std::log10(number("residuals", 0) / std::max(number("residuals", 1), 1e-300));
+  return fmt::format("{}, iteration {}, residual down by {:.2f} decades, CFL {:.3g}",
+                     head.phase == "steady" ? "steady march" : "linear solves about the steady state",
+                     number("iteration"), drop, number("cfl"));
+}
+
+void describe_checkpoint(const std::string& file) {
+  try {
+    check_seal(file);
+  } catch (const InputError& error) {
+    throw InputError(file, 0, "not a whole checkpoint: it " + error.problems().front().what,
+                     "go on from an older one; flow.vtkhdf and surface.vtkhdf are for ParaView");
+  }
+  const auto head = read_checkpoint_head(file);
+  const auto states = read_checkpoint_states(file);
+  const auto& info = head.history.info;
+  fmt::print(
+      "checkpoint {}: whole, its seal matches\n  phase: {}\n  mesh: {} cells, hash {}\n  states: {}\n"
+      "  history: {} steps\n  written by alphadot {}\n",
+      file, place_of(head), states.cells, info.mesh_hash, fmt::join(states.names, " "), head.history.steps(),
+      info.version);
+  if (!head.message.empty()) fmt::print("  message: {}\n", head.message);
+  fmt::print("  case:\n\n{}", info.case_text);
+}
+
 void describe_result(const std::string& file) {
   std::ifstream in(file);
   const auto json = nlohmann::json::parse(in, nullptr, false);
@@ -52,6 +90,8 @@ RunStatus info_verb(const std::string& file, const Communicator& comm) {
       describe_history(file);
     else if (extension == ".json")
       describe_result(file);
+    else if (extension == ".vtkhdf")
+      describe_checkpoint(file);
     else
       describe_mesh(file);
   });

@@ -85,7 +85,7 @@ int main(int argc, char** argv) {
   derive.add_option("history", file, "history.h5 of a run")->required();
   derive.add_option("--center", center, "x of the moment centre, in mesh units (default: that of the run)");
 
-  auto& info = *app.add_subcommand("info", "What a mesh, history or result file holds");
+  auto& info = *app.add_subcommand("info", "What a mesh, history, checkpoint or result file holds");
   info.add_option("file", file, "The file")->required();
 
   auto& keys = *app.add_subcommand("keys", "Every key of the case file with its default and meaning");

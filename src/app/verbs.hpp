@@ -32,7 +32,7 @@ RunStatus check_verb(const CaseArguments& arguments, const Communicator& comm);
 /// Derivatives from a history file, about any centre along the axis (NaN: that of the history).
 RunStatus derive_verb(const std::string& history_file, Real center_x, const Communicator& comm);
 
-/// Prints what a file is and holds: mesh, history or result.
+/// Prints what a file is and holds: mesh, history, checkpoint or result.
 RunStatus info_verb(const std::string& file, const Communicator& comm);
 
 }  // namespace alphadot

@@ -124,6 +124,21 @@ class Commands(unittest.TestCase):
         self.assertIn(f"{STEPS} steps", self.succeeded("info", "plunge/history.h5"))
         self.assertIn('"status": "completed"', self.succeeded("info", "plunge/result.json"))
 
+    def test_info_of_checkpoints(self) -> None:
+        first, last = sorted((self.folder / "plunge").glob("checkpoint_*.vtkhdf"))
+        steady = self.succeeded("info", first)
+        for part in ("whole", "steady march, iteration ", f"{CELLS} cells, hash ", "states: flow", "alphadot 0.", "mach = 2.0"):
+            self.assertIn(part, steady)
+        motion = self.succeeded("info", last)
+        time = 2 * math.pi * 1.5 / 0.02  # k t* is the phase
+        for part in (f"motion (plunge), step {STEPS}, t* = {time:.6g}", "latest_level", f"history: {STEPS} steps"):
+            self.assertIn(part, motion)
+        cut = self.folder / "cut.vtkhdf"
+        cut.write_bytes(last.read_bytes()[:-1])
+        done = run(self.folder, "info", cut, ranks=1)
+        self.assertEqual(done.codes, [1])
+        self.assertIn("not a whole checkpoint: it is cut short", done.err)
+
     def test_check(self) -> None:
         self.assertIn(f"{CELLS} cells", self.succeeded("check", "case.toml"))
 
