@@ -5,7 +5,9 @@ from __future__ import annotations
 
 import os
 import signal
+import shutil
 import tempfile
+import time
 import unittest
 from pathlib import Path
 
@@ -27,12 +29,15 @@ class Stops(unittest.TestCase):
         self.addCleanup(lambda: live.kill() if live.process.poll() is None else None)
         return live
 
-    def assert_goes_on_to_the_same_end(self, ranks: int = 1) -> None:
-        step = int(self.history_steps(self.part))
-        arguments = settings(unsteady_cycles=(step + 8) / 16)
+    def assert_goes_on_to_the_same_end(self, ranks: int = 1, steps: int | None = None) -> None:
+        """Some steps further than the run came, which is as far as its history unless `steps` tells."""
+        if steps is None:
+            steps = int(self.history_steps(self.part))
+        arguments = settings(unsteady_cycles=(steps + 8) / 16)
         for out, restart in ((self.full, []), (self.part, ["--restart"])):
             done = run(self.folder, out, *arguments, *restart, ranks=ranks)
             self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertNotIn("not taken", done.stderr)
         self.assertEqual(differences(self.full, self.part), [])
 
     @staticmethod
@@ -60,13 +65,32 @@ class Stops(unittest.TestCase):
     def test_sigint(self) -> None:
         self.stopped_by(signal.SIGINT, 1)
 
-    def test_sigterm_to_mpirun(self) -> None:
-        live = self.start(*LONG, ranks=2)
-        live.wait_for("step +1/")
+    def test_mpirun_leaves_a_second(self) -> None:
+        """It then kills all ranks: in a step, in the writing of a checkpoint, or after the end. Nothing whole is lost."""
+        for number, delay in ((signal.SIGTERM, 0.0), (signal.SIGINT, 0.013), (signal.SIGTERM, 0.029)):
+            with self.subTest(number=number, delay=delay):
+                for out in (self.full, self.part):
+                    shutil.rmtree(out, ignore_errors=True)
+                live = self.start(*LONG, *settings(checkpoint_steps=1), ranks=2)
+                live.wait_for("checkpoint checkpoint_000003")
+                time.sleep(delay)
+                os.kill(live.process.pid, number)
+                self.assertNotEqual(live.wait(), 0)
+                self.assertEqual(result(self.part)["status"], "interrupted")
+                newest = int(checkpoints(self.part)[-1].stem.split("_")[1])
+                self.assertGreaterEqual(newest, live.announced())
+                self.assert_goes_on_to_the_same_end(ranks=2, steps=newest - 1)  # the first one is the steady state
+
+    def test_mpirun_leaves_a_second_in_the_steady_march(self) -> None:
+        slow = settings(steady_cfl_start=0.001, steady_cfl_max=0.001, steady_max_iterations=1000000)
+        live = self.start(*slow, ranks=2)
+        live.wait_for("steady +1 ")
         os.kill(live.process.pid, signal.SIGTERM)
         self.assertNotEqual(live.wait(), 0)
         self.assertEqual(result(self.part)["status"], "interrupted")
-        self.assertGreaterEqual(len(checkpoints(self.part)), 1)
+        done = run(self.folder, self.part, "--restart", ranks=2)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(result(self.part)["status"], "completed")
 
     def test_sigusr1_makes_a_checkpoint_and_goes_on(self) -> None:
         for ranks in (1, 2):
