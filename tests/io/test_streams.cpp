@@ -1,11 +1,11 @@
-// Expectations: the order and the counts stated in stream_to_root.hpp.
-#include "io/stream_to_root.hpp"
-
+// Expectations: the order and the counts stated in stream_to_root.hpp and stream_from_root.hpp.
 #include <gtest/gtest.h>
 
 #include <numeric>
 
 #include "core/error.hpp"
+#include "io/stream_from_root.hpp"
+#include "io/stream_to_root.hpp"
 
 namespace alphadot {
 namespace {
@@ -63,6 +63,41 @@ TEST(StreamToRoot, AnErrorOnTheRootReachesEveryRank) {
   EXPECT_THROW(stream(), InputError);
   EXPECT_EQ(calls, comm.is_root() ? 1 : 0);          // not called again after it has failed
   EXPECT_EQ(comm.sum(GlobalIndex{1}), comm.size());  // no message is left over
+}
+
+TEST(StreamFromRoot, GivesEachRankItsShare) {
+  const Communicator comm;
+  for (const GlobalIndex largest_piece : {1, 2, 3, 1000}) {
+    std::vector<std::int64_t> mine(values_of(comm.rank()).size(), -1);
+    GlobalIndex next = 0;
+    stream_from_root<std::int64_t>(
+        comm, mine,
+        [&](GlobalIndex first, std::span<std::int64_t> piece) {
+          EXPECT_EQ(first, next);
+          EXPECT_LE(static_cast<GlobalIndex>(piece.size()), largest_piece);
+          for (auto& value : piece) value = next++;
+        },
+        largest_piece);
+    EXPECT_EQ(mine, values_of(comm.rank()));
+  }
+}
+
+TEST(StreamFromRoot, AnErrorOnTheRootReachesEveryRank) {
+  const Communicator comm;
+  auto mine = values_of(comm.rank());
+  int calls = 0;
+  const auto stream = [&] {
+    stream_from_root<std::int64_t>(
+        comm, mine,
+        [&](GlobalIndex, std::span<std::int64_t>) {
+          ++calls;
+          throw InputError("f", 0, "cut short");
+        },
+        2);
+  };
+  EXPECT_THROW(stream(), InputError);
+  EXPECT_EQ(calls, comm.is_root() ? 1 : 0);
+  EXPECT_EQ(comm.sum(GlobalIndex{1}), comm.size());
 }
 
 }  // namespace
