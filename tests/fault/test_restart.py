@@ -11,6 +11,8 @@ from pathlib import Path
 
 from runs import STEPS, checkpoints, derivatives, differences, make_case, result, run, settings
 
+INDICIAL = settings(motion_kind="step_alpha", unsteady_duration=2, unsteady_steps=8)
+
 
 class Restart(unittest.TestCase):
     def setUp(self) -> None:
@@ -46,7 +48,8 @@ class Restart(unittest.TestCase):
             (1, settings(unsteady_cycles=0.25, steady_scheme="lu_sgs")),
             (1, settings(unsteady_cycles=0.25, motion_kind="pitch", motion_treatment="rigid_grid")),
             (1, settings(unsteady_cycles=0.25, motion_kind="pitch", motion_treatment="deforming_grid")),
-            (1, settings(motion_kind="step_alpha", unsteady_duration=2, unsteady_steps=15)),
+            (1, INDICIAL),
+            (2, INDICIAL),
         ):
             with self.subTest(ranks=ranks, arguments=arguments):
                 for out in (self.full, self.part):
