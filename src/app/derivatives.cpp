@@ -169,11 +169,9 @@ RunStatus derivatives_verb(const CaseArguments& arguments, const Communicator& c
   Result result = flow.result(status);
   for (const auto& row : rows)
     result.derivatives[row.name] = {row.value.value, row.value.uncertainty, row.method};
+  if (!rows.empty()) comm.on_root([&] { write_tables(flow, derivatives, rows); });
   flow.write(result);
-  if (!rows.empty()) {
-    comm.on_root([&] { write_tables(flow, derivatives, rows); });
-    print_table(flow.settings(), derivatives, rows);
-  }
+  if (!rows.empty()) print_table(flow.settings(), derivatives, rows);
   flow.print(result);
   return status;
 }
