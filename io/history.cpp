@@ -181,14 +181,18 @@ History History::read(const hdf5::Group& group) {
 
 std::string History::csv() const {
   std::string text;
+  if (names_.empty()) return text;
   for (std::size_t i = 0; i < names_.size(); ++i) text += (i ? "," : "") + csv_cell(names_[i]);
   text += '\n';
-  for (std::size_t step = 0; step < steps(); ++step) {
-    for (std::size_t i = 0; i < columns_.size(); ++i)
-      fmt::format_to(std::back_inserter(text), "{}{}", i ? "," : "", columns_[i][step]);
-    text += '\n';
-  }
+  for (std::size_t step = 0; step < steps(); ++step) text += csv_row(step);
   return text;
+}
+
+std::string History::csv_row(std::size_t step) const {
+  std::string text;
+  for (std::size_t i = 0; i < columns_.size(); ++i)
+    fmt::format_to(std::back_inserter(text), "{}{}", i ? "," : "", columns_[i][step]);
+  return text + '\n';
 }
 
 void write_history(const std::string& folder, const History& history) {

@@ -58,7 +58,8 @@ class History {
   /// Reads back such a group. Throws InputError when it is not one, of another version, or damaged.
   static History read(const hdf5::Group& group);
 
-  std::string csv() const;  ///< a line of names, then a line a step, all digits
+  std::string csv() const;  ///< a line of names, then a line a step, all digits; empty when there are none
+  std::string csv_row(std::size_t step) const;
 
   HistoryInfo info;
 

@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import csv
 import math
-import re
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -19,10 +18,10 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 from sweep.results import Entry, Results, finite
-from sweep.state import LOG
 from sweep.tables import method_label
 from table_one import FREE_FLIGHT_CENTER, HERE, MEASURED, OTHER, PAPER, SZNAJDER_CENTER, Row, column
 
+STEADY, HISTORY = "steady.csv", "history.csv"  # of a run: a row an iteration, a row a step
 SIZE = (5.2, 4.0)
 COLORS = (HERE, "#e08214", "#7b3294", "#1b9e9e", "#8c510a", "#d01c8b")
 STYLE = {
@@ -167,10 +166,10 @@ def of(rows: list[Row], quantity: str) -> list[Row]:
     return [row for row in rows if row["quantity"] == quantity]
 
 
-def read_history(folder: Path) -> dict[str, np.ndarray]:
-    """Columns of history.csv, or {} if there is none."""
+def read_columns(path: Path) -> dict[str, np.ndarray]:
+    """Columns of a CSV file of a run, or {} if there is none."""
     try:
-        with open(folder / "history.csv") as file:
+        with open(path) as file:
             rows = list(csv.DictReader(file))
     except OSError:
         return {}
@@ -181,7 +180,7 @@ def loop_figures(results: Results, folder: Path) -> list[Picture]:
     """Fig. 4 of the paper for every plunge."""
     pictures = []
     for entry in results.with_derivatives:
-        history = read_history(entry.run.folder)
+        history = read_columns(entry.run.folder / HISTORY)
         if entry.run.method == "plunge" and "total/Cm" in history:
             pictures += draw_loop(entry, history, results.center or entry.here.center, folder)
     return pictures
@@ -232,40 +231,22 @@ def draw_loop(entry: Entry, history: dict[str, np.ndarray], center: float, folde
     return pictures
 
 
-def steady_history(folder: Path) -> np.ndarray:
-    """(n, 2) iteration and decimal logarithm of the residual, from the log of the latest attempt."""
-    try:
-        attempt = (folder / LOG).read_text(errors="replace").rsplit("\n== ", 1)[-1]
-    except OSError:
-        return np.empty((0, 2))
-    # The program writes 10^-1.4 as 1e-01.40.
-    found = re.findall(r"^steady +(\d+) +residual 1e([+-][\d.]+)", attempt, re.MULTILINE)
-    return np.array([(float(i), float(r)) for i, r in found]).reshape(-1, 2)
-
-
 def convergence_figures(results: Results, folder: Path) -> list[Picture]:
     """The steady marches in one figure, the inner iterations of the motions in another."""
     pictures = []
-    histories = [(entry, steady_history(entry.run.folder)) for entry in results.entries]
-    if any(len(history) for _, history in histories):
+    histories = [(entry, read_columns(entry.run.folder / STEADY)) for entry in results.entries]
+    histories = [(entry, history) for entry, history in histories if "orders" in history]
+    if histories:
         figure, axes = panel("iteration", "density residual, decades")
-        for index, (entry, history) in enumerate(pair for pair in histories if len(pair[1])):
+        for index, (entry, history) in enumerate(histories):
             color = plt.get_cmap("viridis")(index / max(1, len(histories) - 1) * 0.92)
             style = "--" if entry.run.is_motion else "-"
-            axes.plot(
-                *history.T,
-                style,
-                marker="." if len(history) < 40 else "",
-                color=color,
-                lw=1.3,
-                label=entry.run.name.replace("_", " "),
-            )
+            label = entry.run.name.replace("_", " ")
+            axes.plot(history["iteration"], -history["orders"], style, color=color, lw=1.3, label=label)
         axes.legend(fontsize=7)
         axes.set_title("Steady marches", fontsize=11)
-        pictures.append(
-            save(figure, folder, "convergence_steady", "Steady marches", "One mark each two seconds or so, as the log has them.")
-        )
-    motions = [(entry, read_history(entry.run.folder)) for entry in results.entries if entry.run.is_motion]
+        pictures.append(save(figure, folder, "convergence_steady", "Steady marches"))
+    motions = [(entry, read_columns(entry.run.folder / HISTORY)) for entry in results.entries if entry.run.is_motion]
     motions = [(entry, history) for entry, history in motions if "inner_iterations" in history]
     if motions:
         figure, axes = panel("t* = 2 V t / length", "inner iterations a step")

@@ -14,7 +14,7 @@ from pathlib import Path
 from sweep.lock import Locked, locked
 from sweep.meshes import make_mesh, mesh_file
 from sweep.plan import Run, SweepError
-from sweep.state import END, LOCK, LOG, RECORD, RESULT, Phase, State
+from sweep.state import END, LOCK, LOG, PROGRESS, RECORD, RESULT, Phase, State
 from sweep.state import checkpoints, progress, read_json, reason, state_at_rest, write_json
 from sweep.text import duration
 
@@ -95,7 +95,7 @@ class Runner:
         if not goes_on:
             for file in checkpoints(run):
                 file.unlink()
-        for name in (END, RESULT):
+        for name in (END, RESULT, PROGRESS):
             (run.folder / name).unlink(missing_ok=True)
         attempt = record.get("attempt", 0) + 1
         write_json(run.folder / RECORD, {"identity": run.identity(), "attempt": attempt, "started": time.strftime("%F %T")})

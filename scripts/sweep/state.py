@@ -11,10 +11,12 @@ from pathlib import Path
 
 from sweep.lock import is_locked
 from sweep.plan import Run
+from sweep.text import duration
 
-LOCK, LOG, RECORD, END, RESULT = "lock", "log.txt", "run.json", "end.json", "result.json"
+LOCK, LOG, RECORD, END = "lock", "log.txt", "run.json", "end.json"
+RESULT, PROGRESS = "result.json", "progress.json"  # by the program; the latter while it runs
 GOOD_ENDS = ("converged", "completed")
-TAIL = 20_000  # bytes of a log that are searched for the latest progress
+TAIL = 20_000  # bytes of a log that are searched for errors
 
 
 class Phase(Enum):
@@ -58,17 +60,14 @@ def log_tail(folder: Path) -> str:
 
 
 def progress(folder: Path) -> str:
-    """The latest progress of a run: "steady 1e-06.14, left 13 s", "step 12/72, left 3 min 20 s", "linear solves"."""
-    for line in reversed(log_tail(folder).splitlines()):
-        if match := re.match(r"steady +(\d+) +residual (\S+) .* left (.+)", line):
-            return f"steady {match[2]}, {match[3]} left"
-        if match := re.match(r"step +(\d+)/(\d+) .* left (.+)", line):
-            return f"step {match[1]}/{match[2]}, {match[3]} left"
-        if re.match(r"(alpha|beta|p|q|r|alphadot|betadot) +\d+ iterations", line):
-            return "linear solves"
-        if line.startswith("== "):
-            break
-    return "starting"
+    """The latest progress of a run: "steady 1e-6.1, 13 s left", "step 12/72, 3 min 20 s left", "linear solves"."""
+    found = read_json(folder / PROGRESS)
+    phase, left = found.get("phase", "starting"), found.get("seconds_left")
+    if phase == "steady":
+        phase = f"steady 1e-{found['orders']:.1f}"
+    elif phase == "motion":
+        phase = f"step {found['step']:.0f}/{found['of_steps']:.0f}"
+    return phase if left is None else f"{phase}, {duration(left)} left"
 
 
 def reason(folder: Path) -> str:

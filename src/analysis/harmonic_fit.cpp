@@ -56,10 +56,10 @@ Window window_of(const HarmonicBasis& basis, std::span<const Real> time, std::sp
   Window window;
   window.start = basis.discarded_cycles * period;
   window.cycles = (time.empty() ? 0.0 : time.back()) / period - basis.discarded_cycles;
-  if (window.cycles < 1 - 1e-6)
+  if (window.cycles < basis.least_cycles - 1e-6)
     refuse(fmt::format("the history holds {:.2f} cycles, of which the first {:.2f} are discarded",
                        window.cycles + basis.discarded_cycles, basis.discarded_cycles),
-           fmt::format("compute at least {:.2f} cycles", basis.discarded_cycles + 1));
+           fmt::format("compute at least {:.2f} cycles", basis.discarded_cycles + basis.least_cycles));
   // Round-off in the times must not decide whether the sample on the border belongs to the window.
   const auto first = std::ranges::lower_bound(time, window.start - 1e-9 * period) - time.begin();
   window.time = tail_of(time, first);
@@ -108,6 +108,7 @@ Eigen::Vector2d half_cycle_scatter(const HarmonicBasis& basis, const Window& win
   const VectorXd& time = window.time;
   const Real half_period = pi / basis.reduced_frequency;
   const auto parts = static_cast<int>(2 * window.cycles + 1e-6);
+  if (parts < 2) return {0, 0};
   Eigen::Matrix2Xd shift(2, parts);
   Size begin = 0;
   for (int part = 0; part < parts; ++part) {

@@ -17,13 +17,14 @@ struct HarmonicBasis {
   int harmonics = 3;            ///< highest multiple of k; three, as the response of a symmetric body is odd
   bool drift = false;           ///< with a term linear in t*
   Real discarded_cycles = 0.5;  ///< the start-up that is left out
+  Real least_cycles = 1;        ///< shortest window that is fitted
 };
 
 /// A fitted amplitude and the three sources of its uncertainty, each about 95 %.
 struct FittedAmplitude {
   Real value = 0;
   Real residual = 0;     ///< two standard errors from the covariance, residuals correlated in time
-  Real half_cycles = 0;  ///< range of the values in the n half cycles over sqrt(n - 1)
+  Real half_cycles = 0;  ///< range of the values in the n half cycles over sqrt(n - 1); 0 for n < 2: unknown
   Real samples = 0;      ///< worst case of the given bounds on the samples (inner convergence)
 
   /// Random parts in quadrature; the worst case is added, for a lag in time acts on all samples alike.
@@ -42,8 +43,8 @@ struct HarmonicFit {
 
 /// Fits y(time). `time` (t*, increasing), `y` and `weights` (positive; empty: each sample weighs as its time
 /// step, so that uneven steps act as in the Fourier integral) and `bounds` (largest error of each sample;
-/// empty: none) have one entry a sample. The window need not be whole cycles, but holds at least one. Source:
-/// the paper's (7), with sine and cosine exchanged as its (6) demands, in least-squares form. Throws
+/// empty: none) have one entry a sample. The window need not be whole cycles, but holds basis.least_cycles.
+/// Source: the paper's (7), with sine and cosine exchanged as its (6) demands, in least-squares form. Throws
 /// InputError for a history that is too short, too coarse, not increasing in time or not finite.
 HarmonicFit fit_harmonics(const HarmonicBasis& basis, std::span<const Real> time, std::span<const Real> y,
                           std::span<const Real> weights = {}, std::span<const Real> bounds = {});

@@ -129,12 +129,12 @@ void write_tables(const FlowCase& flow, const DerivativeSet& derivatives, const 
   replace_file_with(stem + ".jsbsim.xml", jsbsim_aerodynamics(point));
 }
 
-void print_table(const Case& settings, const DerivativeSet& derivatives, const std::vector<TableRow>& rows) {
-  spdlog::info("\n{}", derivative_table(rows, settings.reference));
+void print_static_margin(const Case& settings, const DerivativeSet& derivatives) {
+  if (!spdlog::should_log(spdlog::level::info)) return;
   const auto& alpha = derivatives.at(Variable::alpha);
   const auto margin = static_margin(alpha.CN, alpha.Cm);
-  spdlog::info("static margin {:.4f} lengths, neutral point x = {:.4f}", margin.value,
-               settings.reference.moment_center.x + margin.value * settings.reference.length);
+  fmt::print("Static margin {:.4f} lengths, neutral point x = {:.4f}\n", margin.value,
+             settings.reference.moment_center.x + margin.value * settings.reference.length);
 }
 
 }  // namespace
@@ -151,7 +151,10 @@ RunStatus derivatives_verb(const CaseArguments& arguments, const Communicator& c
     status = flow.march();
     const Real steady_cpu = comm.sum(steady_time.cpu());
     const Timer linear_time;
-    if (status != RunStatus::interrupted) derivatives = solve_all(flow);
+    if (status != RunStatus::interrupted) {
+      flow.progress().begin_linear_solves();
+      derivatives = solve_all(flow);
+    }
     if (status != RunStatus::interrupted && derivatives.empty()) {
       status = RunStatus::interrupted;
       flow.set_message(flow.checkpoints().stop_reason());
@@ -166,13 +169,11 @@ RunStatus derivatives_verb(const CaseArguments& arguments, const Communicator& c
 
   const auto rows = rows_of(
       derivatives, fmt::format("linear solve, k -> 0, {}", word_of(flow.settings().derivatives.method)));
-  Result result = flow.result(status);
-  for (const auto& row : rows)
-    result.derivatives[row.name] = {row.value.value, row.value.uncertainty, row.method};
+  const Result result = flow.result(status, rows);
   if (!rows.empty()) comm.on_root([&] { write_tables(flow, derivatives, rows); });
   flow.write(result);
-  if (!rows.empty()) print_table(flow.settings(), derivatives, rows);
-  flow.print(result);
+  flow.print(result, rows);
+  if (!rows.empty()) print_static_margin(flow.settings(), derivatives);
   return status;
 }
 

@@ -8,7 +8,9 @@
 #include "analysis/harmonic_derivatives.hpp"
 #include "analysis/indicial.hpp"
 #include "analysis/ramp.hpp"
+#include "core/error.hpp"
 #include "io/case_words.hpp"
+#include "motion/motion.hpp"
 
 namespace alphadot {
 
@@ -66,8 +68,17 @@ Coefficients initial_loads(const History& history) {
   return out;
 }
 
+/// Cycles at the start of a motion that no fit uses.
+constexpr Real least_discarded = 0.1;
+
 /// Share of a ramp's record that its start may take.
 constexpr Real ramp_transient = 0.5;
+
+Extraction harmonic_extraction(const History& history, const HarmonicBasis& basis) {
+  const auto& motion = history.info.motion;
+  return {harmonic_derivatives(force_history(history, 0), motion.kind, basis).derivatives,
+          fmt::format("harmonic fit, {}, k = {}", motion_name(motion.kind), motion.reduced_frequency)};
+}
 
 }  // namespace
 
@@ -93,9 +104,24 @@ Extraction extract_derivatives(const History& history) {
     default:
       break;
   }
-  const HarmonicBasis basis{.reduced_frequency = motion.reduced_frequency};
-  return {harmonic_derivatives(force_history(history, 0), motion.kind, basis).derivatives,
-          fmt::format("harmonic fit, {}, k = {}", motion_name(motion.kind), motion.reduced_frequency)};
+  return harmonic_extraction(history, {.reduced_frequency = motion.reduced_frequency});
+}
+
+Extraction derivatives_so_far(const History& history) {
+  const auto& motion = history.info.motion;
+  try {
+    if (!is_harmonic(motion.kind)) return extract_derivatives(history);
+    const Real cycles = history.column("t_star").back() * motion.reduced_frequency / (2 * pi);
+    // Half a cycle at least; what is more than that goes to the start that is left out, up to the final
+    // fit's.
+    HarmonicBasis basis{.reduced_frequency = motion.reduced_frequency, .least_cycles = 0.5};
+    if (cycles < basis.least_cycles + least_discarded) return {};
+    basis.discarded_cycles = std::min(cycles - basis.least_cycles, basis.discarded_cycles);
+    if (cycles < basis.discarded_cycles + 1) basis.harmonics = 1;
+    return harmonic_extraction(history, basis);
+  } catch (const InputError&) {
+    return {};  // not enough of it yet
+  }
 }
 
 }  // namespace alphadot

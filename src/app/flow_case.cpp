@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <utility>
@@ -11,7 +12,6 @@
 #include "app/loads.hpp"
 #include "app/motion_setup.hpp"
 #include "app/pictures.hpp"
-#include "app/progress.hpp"
 #include "app/watchdog.hpp"
 #include "core/error.hpp"
 #include "core/log.hpp"
@@ -62,6 +62,7 @@ FlowCase::FlowCase(const CaseArguments& arguments, const Communicator& comm)
       setup_(prepare(arguments, comm)),
       folder_(run_folder(arguments, setup_.settings)),
       checkpoints_(setup_, folder_, timer_, comm),
+      progress_(setup_.settings, folder_, comm.is_root()),
       discretization_(setup_.domain, setup_.patch_kinds, setup_.settings.space,
                       setup_.settings.freestream.gamma),
       iteration_(discretization_, comm, make_linear_solver(discretization_, comm, setup_.settings.steady),
@@ -165,12 +166,12 @@ RunStatus FlowCase::march() {
     iteration_.set_uniform(now.free_stream);
   }
   int saved = steady_state_.iteration;
-  ProgressLines lines(settings());
+  progress_.begin_steady(saved);
   const Watchdog watchdog(
       settings().checkpoint.watchdog_minutes, [&] { return iteration_.iterations(); }, comm_);
   const int interval = settings().checkpoint.iterations;
   const auto observe = [&](const SteadyProgress& p) {
-    lines.show(p);
+    progress_.show(p);
     steady_state_ = p.state;
     const Wish wish = checkpoints_.poll(interval > 0 && p.iteration % interval == 0);
     if (wish.save && p.resumable) {
@@ -186,6 +187,7 @@ RunStatus FlowCase::march() {
                  result.iterations);
     iteration_.set_uniform(now.free_stream);
     steady_state_ = {};
+    progress_.begin_steady(0);
     result = march_to_steady(iteration_, now, gentler(settings().steady), settings().space.order, observe);
   }
   steady_report_ = result.report;
@@ -224,7 +226,7 @@ PerformanceResult FlowCase::performance() const {
   return out;
 }
 
-Result FlowCase::result(RunStatus status) const {
+Result FlowCase::result(RunStatus status, std::span<const TableRow> derivatives) const {
   Result out;
   out.status = status;
   out.message = message_;
@@ -240,6 +242,8 @@ Result FlowCase::result(RunStatus status) const {
       out.components[setup_.domain.patch_names[patch]] =
           named(coefficients(steady_report_.loads[patch], settings()));
   out.excluded = excluded_patches();
+  for (const auto& row : derivatives)
+    out.derivatives[row.name] = {row.value.value, row.value.uncertainty, row.method};
   out.performance = performance();
   out.provenance = provenance(comm_.size());
   return out;
@@ -260,10 +264,13 @@ void FlowCase::write(const Result& result) const {
   });
 }
 
-void FlowCase::print(const Result& result) const {
+void FlowCase::print(const Result& result, std::span<const TableRow> derivatives) const {
+  if (!spdlog::should_log(spdlog::level::info)) return;
   const auto loads = coefficients(steady_report_.total, settings());
-  spdlog::info("\nSteady: CA {:.6f}  CN {:+.6f}  Cm {:+.6f} about x = {:g}", loads.CA, loads.CN, loads.Cm,
-               settings().reference.moment_center.x);
+  if (!derivatives.empty()) fmt::print("{}\n", derivative_table(derivatives, settings().reference));
+  fmt::print("Steady: CA {:.6f}  CN {:+.6f}  Cm {:+.6f} about x = {:g}\n", loads.CA, loads.CN, loads.Cm,
+             settings().reference.moment_center.x);
+  std::fflush(stdout);  // before the log's last word
   const auto& p = result.performance;
   spdlog::info(
       "{}: {} wall, {:.1f} s of processor, {} iterations, {:.3f} us of core time per cell and iteration, "

@@ -2,11 +2,13 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "analysis/coefficients.hpp"
 #include "app/checkpoints.hpp"
+#include "app/progress.hpp"
 #include "app/setup.hpp"
 #include "app/verbs.hpp"
 #include "core/timer.hpp"
@@ -40,6 +42,7 @@ class FlowCase {
 
   Checkpoints& checkpoints() { return checkpoints_; }
   const Checkpoints& checkpoints() const { return checkpoints_; }
+  Progress& progress() { return progress_; }
   /// Writes a checkpoint of the flow and of `others`, fields of the march that the head belongs to.
   void save(const CheckpointHead& head, std::vector<CheckpointField> others = {});
   /// Reads the same from the checkpoint that the run begins from.
@@ -51,14 +54,14 @@ class FlowCase {
   /// Why the run ended as it did, for the result.
   void set_message(std::string message) { message_ = std::move(message); }
 
-  /// Everything in result.json but derivatives. Collective.
-  Result result(RunStatus status) const;
+  /// Everything in result.json, with the derivatives of a table. Collective.
+  Result result(RunStatus status, std::span<const TableRow> derivatives = {}) const;
   /// Writes a result.json that says interrupted: what stands there when the run is killed. Collective.
   void announce() const;
   /// Writes pictures (but when interrupted), resolved case and result.json. Collective.
   void write(const Result& result) const;
-  /// The closing lines of a run.
-  void print(const Result& result) const;
+  /// What the run has found, on standard output (unless quiet), and how it ended, in the log.
+  void print(const Result& result, std::span<const TableRow> derivatives) const;
 
  private:
   std::vector<std::string> excluded_patches() const;
@@ -73,6 +76,7 @@ class FlowCase {
   Setup setup_;
   std::string folder_;
   Checkpoints checkpoints_;
+  Progress progress_;
   Discretization discretization_;
   ImplicitIteration iteration_;
   Motion motion_;

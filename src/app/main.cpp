@@ -88,6 +88,14 @@ int main(int argc, char** argv) {
   auto& info = *app.add_subcommand("info", "What a mesh, history, checkpoint or result file holds");
   info.add_option("file", file, "The file")->required();
 
+  bool once = false;
+  Real interval = 2;
+  auto& watch = *app.add_subcommand("watch", "Follow a run, or all runs of a sweep, in the terminal");
+  watch.add_option("folder", file, "Folder of the run, or of the sweep")->required();
+  watch.add_flag("--once", once, "Show the state once and end");
+  watch.add_option("--interval", interval, "Seconds between two looks (default: 2)")
+      ->check(CLI::Range(0.1, 3600.0));
+
   auto& keys = *app.add_subcommand("keys", "Every key of the case file with its default and meaning");
 
   try {
@@ -107,6 +115,7 @@ int main(int argc, char** argv) {
     if (check) return check_verb(arguments, comm);
     if (derive) return derive_verb(file, center, comm);
     if (info) return info_verb(file, comm);
+    if (watch) return watch_verb(file, once, interval, comm);
     if (keys && comm.is_root()) fmt::print("{}", describe_case_keys());
     return RunStatus::completed;
   });

@@ -2,46 +2,169 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <utility>
 
+#include "app/extraction.hpp"
+#include "app/loads.hpp"
 #include "core/log.hpp"
 
 namespace alphadot {
 
 namespace {
+
+namespace fs = std::filesystem;
+
 constexpr Real seconds_between_lines = 2;
+constexpr char steady_head[] = "iteration,orders,cfl,CA,CY,CN,Cl,Cm,Cn\n";
+
+/// The head of a table of iterations and its rows up to one of them.
+std::string rows_up_to(const std::string& path, int iteration) {
+  std::ifstream in(path);
+  std::string out, line;
+  if (!std::getline(in, line) || line + '\n' != steady_head) return steady_head;
+  out = line + '\n';
+  while (std::getline(in, line) && std::atoi(line.c_str()) <= iteration) out += line + '\n';
+  return out;
 }
 
+/// The moment that answers a motion.
+const char* moment_of(MotionKind kind) {
+  switch (kind) {
+    case MotionKind::roll:
+      return "Cl_";
+    case MotionKind::sway:
+    case MotionKind::yaw:
+      return "Cn_";
+    default:
+      return "Cm_";
+  }
+}
+
+/// "  Cm_alpha -17.05  Cm_alphadot -22.61"
+std::string moments_text(std::span<const TableRow> rows, MotionKind kind) {
+  std::string out;
+  for (const TableRow& row : rows)
+    if (row.name.starts_with(moment_of(kind))) out += fmt::format("  {} {:+.4g}", row.name, row.value.value);
+  return out;
+}
+
+}  // namespace
+
 std::string duration_text(Real seconds) {
-  const auto whole = static_cast<long>(std::lround(seconds));
+  const auto whole = std::lround(seconds);
   if (whole >= 3600) return fmt::format("{} h {:02} min", whole / 3600, whole / 60 % 60);
   if (whole >= 60) return fmt::format("{} min {:02} s", whole / 60, whole % 60);
   return fmt::format("{} s", whole);
 }
 
-bool ProgressLines::is_due() {
+Progress::Progress(const Case& settings, std::string folder, bool is_root)
+    : settings_(settings), folder_(std::move(folder)), is_root_(is_root) {
+  if (is_root_) write_json("setting up", {}, not_measured, {});
+}
+
+Progress::~Progress() {
+  std::error_code ignored;
+  if (is_root_) fs::remove(folder_ + "/progress.json", ignored);
+}
+
+void Progress::begin(Real share) {
+  clock_ = Timer();
+  first_share_ = share;
+  last_shown_ = -1e9;
+  table_.reset();
+}
+
+bool Progress::is_due() {
   if (clock_.wall() - last_shown_ < seconds_between_lines) return false;
   last_shown_ = clock_.wall();
   return true;
 }
 
-void ProgressLines::show(const SteadyProgress& progress) {
-  if (!is_due() && progress.orders < settings_.steady.orders) return;
-  const auto loads = coefficients(progress.report.total, settings_);
-  const Real share = std::max(progress.orders, Real{0.05}) / settings_.steady.orders;
-  spdlog::info("steady {:5}  residual 1e{:+06.2f}  CFL {:.0e}  CN {:+.6f}  CA {:.6f}  Cm {:+.6f}  left {}",
-               progress.iteration, -progress.orders, progress.cfl, loads.CN, loads.CA, loads.Cm,
-               duration_text(clock_.wall() * (1 / share - 1)));
+Real Progress::seconds_left(Real share) const {
+  const Real done = std::max(share - first_share_, Real{1e-3});
+  return std::max(clock_.wall() * (1 - share) / done, Real{0});
 }
 
-void ProgressLines::show(const StepReport& step, int steps) {
-  if (!is_due() && step.step < steps) return;
+void Progress::begin_steady(int iteration) {
+  begin(0);
+  if (!is_root_) return;
+  const std::string path = folder_ + "/steady.csv";
+  table_.emplace(path, iteration > 0 ? rows_up_to(path, iteration) : steady_head);
+}
+
+void Progress::show(const SteadyProgress& progress) {
+  if (!is_root_) return;
+  const auto loads = coefficients(progress.report.total, settings_);
+  table_->append(fmt::format("{},{:.6g},{:.6g},{},{},{},{},{},{}\n", progress.iteration, progress.orders,
+                             progress.cfl, loads.CA, loads.CY, loads.CN, loads.Cl, loads.Cm, loads.Cn));
+  const Real share = progress.orders / settings_.steady.orders;
+  if (first_share_ == 0) first_share_ = std::min(share, Real{1});  // what a restart had already
+  if (!is_due() && share < 1) return;
+  const Real left = seconds_left(share);
+  spdlog::info("steady {:5}  residual 1e{:+06.2f}  CFL {:.0e}  CN {:+.6f}  CA {:.6f}  Cm {:+.6f}  left {}",
+               progress.iteration, -progress.orders, progress.cfl, loads.CN, loads.CA, loads.Cm,
+               duration_text(left));
+  write_json("steady",
+             {{"iteration", progress.iteration},
+              {"orders", progress.orders},
+              {"of_orders", settings_.steady.orders},
+              {"CA", loads.CA},
+              {"CN", loads.CN},
+              {"Cm", loads.Cm}},
+             left, {});
+}
+
+void Progress::begin_motion(const History& so_far, int steps) {
+  steps_ = steps;
+  begin(static_cast<Real>(so_far.steps()) / steps);
+  if (is_root_) table_.emplace(folder_ + "/history.csv", so_far.csv());
+}
+
+void Progress::show(const StepReport& step, const History& so_far) {
+  if (!is_root_) return;
+  // The first row brings the line of names with it.
+  table_->append(so_far.steps() == 1 ? so_far.csv() : so_far.csv_row(so_far.steps() - 1));
+  if (!is_due() && step.step < steps_) return;
   const auto loads = coefficients(step.report.total, settings_);
+  const Real error = std::abs(coefficients(step.error, settings_).Cm);
+  const Real left = seconds_left(static_cast<Real>(step.step) / steps_);
+  const Extraction so = derivatives_so_far(so_far);
+  const auto rows = rows_of(so.derivatives, so.method);
   spdlog::info(
-      "step {:4}/{}  alpha {:+.3f}  inner {:3} (1e{:+.1f})  CN {:+.6f}  Cm {:+.6f} +- {:.1e}  left {}",
-      step.step, steps, step.attitude.alpha / radians_per_degree, step.inner_iterations, -step.inner_orders,
-      loads.CN, loads.Cm, std::abs(coefficients(step.error, settings_).Cm),
-      duration_text(clock_.wall() * (static_cast<Real>(steps) / step.step - 1)));
+      "step {:4}/{}  alpha {:+.3f}  inner {:3} (1e{:+.1f})  CN {:+.6f}  Cm {:+.6f} +- {:.1e}{}  left {}",
+      step.step, steps_, step.attitude.alpha / radians_per_degree, step.inner_iterations, -step.inner_orders,
+      loads.CN, loads.Cm, error, moments_text(rows, settings_.motion.kind), duration_text(left));
+  write_json("motion",
+             {{"step", step.step},
+              {"of_steps", steps_},
+              {"alpha", step.attitude.alpha / radians_per_degree},
+              {"inner_iterations", step.inner_iterations},
+              {"CA", loads.CA},
+              {"CN", loads.CN},
+              {"Cm", loads.Cm},
+              {"error_Cm", error}},
+             left, rows);
+}
+
+void Progress::begin_linear_solves() {
+  begin(0);
+  if (is_root_) write_json("linear solves", {}, not_measured, {});
+}
+
+void Progress::write_json(const std::string& phase, const NamedValues& values, Real seconds_left,
+                          std::span<const TableRow> derivatives) const {
+  nlohmann::ordered_json json{{"title", settings_.title}, {"phase", phase}, {"seconds_left", seconds_left}};
+  for (const auto& [name, value] : values) json[name] = value;
+  json["derivatives"] = nlohmann::ordered_json::object();
+  for (const TableRow& row : derivatives) json["derivatives"][row.name] = row.value.value;
+  const std::string path = folder_ + "/progress.json", temporary = path + ".part";
+  std::ofstream(temporary) << json.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
+  std::error_code ignored;
+  fs::rename(temporary, path, ignored);
 }
 
 }  // namespace alphadot

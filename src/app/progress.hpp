@@ -1,27 +1,57 @@
-// Lines that show a long run at work.
+// What a run shows of itself while it works.
 #pragma once
 
-#include "app/loads.hpp"
+#include <optional>
+#include <string>
+
+#include "analysis/table.hpp"
 #include "core/timer.hpp"
+#include "io/history.hpp"
+#include "io/live_table.hpp"
+#include "io/result.hpp"
 #include "solver/dual_time.hpp"
 #include "solver/steady.hpp"
 
 namespace alphadot {
 
-/// Writes a line now and then: residual, coefficients, time left. Silent on ranks other than the root (the
-/// log's level).
-class ProgressLines {
+/// A line in the terminal now and then, with residual, coefficients, derivatives so far and time left. In the
+/// run's folder, for whoever looks on from outside (the verb watch, scripts/sweep.py): the same as
+/// progress.json, a row an iteration in steady.csv, a row a step in history.csv. None of these is needed to
+/// go on, so that one that cannot be written stops nothing. Silent on ranks other than the root.
+class Progress {
  public:
-  explicit ProgressLines(const Case& settings) : settings_(settings) {}
+  Progress(const Case& settings, std::string folder, bool is_root);
+  /// Removes progress.json: a run that has ended is known by its result.json.
+  ~Progress();
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
 
+  /// The steady march sets out after some iteration; rows of steady.csv up to it are kept.
+  void begin_steady(int iteration);
   void show(const SteadyProgress& progress);
-  void show(const StepReport& step, int steps);
+
+  /// The motion sets out after what is recorded already.
+  void begin_motion(const History& so_far, int steps);
+  /// To be called when the step is in the history.
+  void show(const StepReport& step, const History& so_far);
+
+  void begin_linear_solves();
 
  private:
   bool is_due();
+  /// Seconds for the rest, when `share` of the phase is done.
+  Real seconds_left(Real share) const;
+  void begin(Real share);
+  void write_json(const std::string& phase, const NamedValues& values, Real seconds_left,
+                  std::span<const TableRow> derivatives) const;
 
   const Case& settings_;
-  Timer clock_;
+  std::string folder_;
+  bool is_root_;
+  int steps_ = 0;
+  std::optional<LiveTable> table_;
+  Timer clock_;           ///< of the phase
+  Real first_share_ = 0;  ///< of the phase that was done when it began here
   Real last_shown_ = -1e9;
 };
 

@@ -6,7 +6,6 @@
 #include "app/flow_case.hpp"
 #include "app/loads.hpp"
 #include "app/motion_setup.hpp"
-#include "app/progress.hpp"
 #include "app/stop.hpp"
 #include "app/watchdog.hpp"
 #include "core/error.hpp"
@@ -82,15 +81,15 @@ RunStatus follow_motion(FlowCase& flow, History& history) {
     history.append(history_row(dual_time.before(), flow));
     if (flow.motion().starts_with_jump()) history.append(history_row(dual_time.just_after_start(), flow));
   }
-  ProgressLines lines(settings);
+  flow.progress().begin_motion(history, steps);
   const Watchdog watchdog(
       settings.checkpoint.watchdog_minutes, [&] { return flow.iteration().iterations(); },
       flow.communicator());
   const int interval = settings.checkpoint.steps;
   while (dual_time.step() < steps) {
     const auto step = dual_time.advance(tolerance);
-    lines.show(step, steps);
     history.append(history_row(step, flow));
+    flow.progress().show(step, history);
     const Wish wish = flow.checkpoints().poll(interval > 0 && step.step % interval == 0);
     if (wish.save || step.step == steps) save(flow, dual_time, history);
     if (wish.stop && step.step < steps) {
@@ -135,12 +134,9 @@ RunStatus run_verb(const CaseArguments& arguments, const Communicator& comm) {
 
   if (history.steps() > 0) comm.on_root([&] { write_history(flow.folder(), history); });
   const auto rows = rows_of(extraction.derivatives, extraction.method);
-  Result result = flow.result(status);
-  for (const auto& row : rows)
-    result.derivatives[row.name] = {row.value.value, row.value.uncertainty, row.method};
+  const Result result = flow.result(status, rows);
   flow.write(result);
-  if (!rows.empty()) spdlog::info("\n{}", derivative_table(rows, flow.settings().reference));
-  flow.print(result);
+  flow.print(result, rows);
   return status;
 }
 

@@ -35,4 +35,8 @@ RunStatus derive_verb(const std::string& history_file, Real center_x, const Comm
 /// Prints what a file is and holds: mesh, history, checkpoint or result.
 RunStatus info_verb(const std::string& file, const Communicator& comm);
 
+/// Shows the residual, the forces and the derivatives so far of a run's folder, or of every run in a sweep's
+/// folder: once, or every `interval` seconds until the run ends (a sweep: until interrupted).
+RunStatus watch_verb(const std::string& folder, bool once, Real interval, const Communicator& comm);
+
 }  // namespace alphadot

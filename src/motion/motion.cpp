@@ -44,8 +44,8 @@ Real Motion::period() const {
   return 2 * pi / omega();
 }
 
-bool Motion::is_harmonic() const {
-  switch (settings_.kind) {
+bool is_harmonic(MotionKind kind) {
+  switch (kind) {
     case MotionKind::plunge:
     case MotionKind::sway:
     case MotionKind::pitch:

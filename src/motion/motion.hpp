@@ -17,6 +17,9 @@ struct Attitude {
   Vec3 velocity;             ///< of the axis point
 };
 
+/// Whether a motion is a sine of its reduced frequency.
+bool is_harmonic(MotionKind kind);
+
 /// A motion of the whole body about a mean incidence. Time is non-dimensional: t = t_phys a_inf / (unit of
 /// length). The body is at rest before t = 0; what jumps there has jumped at t = 0.
 ///
@@ -47,7 +50,7 @@ class Motion {
   /// Rotation of the axes in steady flight, rad per unit of time: settings.rotation = (p*, q*, r*) in mesh
   /// axes.
   Vec3 steady_rotation() const;
-  bool is_harmonic() const;
+  bool is_harmonic() const { return alphadot::is_harmonic(settings_.kind); }
   /// True when velocity or rotation at t = 0 differ from those at rest.
   bool starts_with_jump() const;
   Real period() const;  ///< of a harmonic motion

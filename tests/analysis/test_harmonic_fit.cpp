@@ -41,6 +41,21 @@ TEST(HarmonicFit, ExactOnAnyWindow) {
   }
 }
 
+// Half a cycle, as a motion under way has it, determines mean and fundamental; nothing tells two halves
+// apart.
+TEST(HarmonicFit, HalfACycleWhereThatIsAllowed) {
+  const auto pure = [](Real x) { return 0.3 - 0.2 * std::sin(k * x) + 0.004 * std::cos(k * x); };
+  const HarmonicBasis basis{
+      .reduced_frequency = k, .harmonics = 1, .discarded_cycles = 0.1, .least_cycles = 0.5};
+  const auto t = times(0.6 * period, period / 48);
+  const auto fit = fit_harmonics(basis, t, sampled(t, pure));
+  EXPECT_NEAR(fit.in_phase.value, -0.2, 1e-12);
+  EXPECT_NEAR(fit.out_of_phase.value, 0.004, 1e-12);
+  EXPECT_EQ(fit.out_of_phase.half_cycles, 0);
+  const auto less = times(0.55 * period, period / 48);
+  EXPECT_THROW(fit_harmonics(basis, less, sampled(less, pure)), InputError);
+}
+
 // The paper's (7) has sine and cosine exchanged. Its (6), m = m0 + m_alpha am sin + m_alphadot k am cos,
 // decides: a signal that is all sine is all static.
 TEST(HarmonicFit, SineIsInPhase) {

@@ -49,7 +49,10 @@ class Commands(unittest.TestCase):
 
     def test_run_succeeds(self) -> None:
         self.assertEqual(self.outcome.codes, [0] * RANKS, self.outcome.err)
-        self.assertIn("Cm_alphadot", self.outcome.out + self.outcome.err)
+        self.assertRegex(self.outcome.out, r"\nCm_alphadot +-?\d")
+        for text in ("Reference: length", "Steady: CA"):  # results, not progress
+            self.assertIn(text, self.outcome.out)
+            self.assertNotIn(text, self.outcome.err)
 
     def test_result(self) -> None:
         result = self.result()

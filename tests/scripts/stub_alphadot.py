@@ -67,9 +67,10 @@ if title == "bad":
     sys.exit(1)
 if title == "slow" and not restart:
     signal.signal(signal.SIGUSR2, stop)
-    print("step    3/10  alpha +1.5  inner   4 (1e-3)  CN +0.2  Cm -0.4 +- 1e-6  left 7 s", file=sys.stderr, flush=True)
+    progress = {"phase": "motion", "seconds_left": 7.2, "step": 3, "of_steps": 10}
+    (folder / "progress.json").write_text(json.dumps(progress))
     (folder / "started").touch()
     time.sleep(30)
     sys.exit("nobody stopped the stub")
-print("steady    60  residual 1e-10.10  CFL 1e+06  CN +0.2  CA 0.1  Cm -0.4  left 0 s", file=sys.stderr)
+(folder / "steady.csv").write_text("iteration,orders,cfl,CA,CN,Cm\n1,0,20,0.3,0.1,-0.2\n60,10.1,1e6,0.1,0.2,-0.4\n")
 end("converged" if verb == "derivatives" else "completed", 0)

@@ -48,6 +48,7 @@ class Report(Workspace):
         self.assertNotIn("Beside the paper", text)  # other configurations have none
         for words in ("Try &lt;1&gt;", "(5.5, 0, 0)", "length / (2 V)", "5 of 6 runs done", "no such mesh", "width=device-width"):
             self.assertIn(words, text)
+        self.assertTrue((self.folder / "runs" / "report" / "convergence_steady.svg").exists())
         with open(self.folder / "runs" / "report" / "derivatives.csv") as file:
             rows = list(csv.DictReader(line for line in file if not line.startswith("#")))
         self.assertEqual([float(row["Mach"]) for row in rows], [1.58, 1.75, 1.89, 2.10, 2.50])
