@@ -11,10 +11,7 @@ from __future__ import annotations
 import argparse
 import csv
 import math
-import os
 import sys
-import time
-from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -72,7 +69,7 @@ class Finner:
     def leading_edge(self) -> float:
         return self.length - self.chord
 
-    def exact_areas(self) -> dict[str, float]:
+    def exact_areas(self, sting: bool) -> dict[str, float]:
         """Areas of the whole configuration in d^2; the fins stand on the cylinder, so their roots are curved."""
         nodes, weights = np.polynomial.legendre.leggauss(20)
         s, w = 0.5 * (nodes + 1.0), 0.5 * weights
@@ -84,8 +81,8 @@ class Finner:
         sides = 8 * math.hypot(self.chord, self.half_thickness) * (w @ (self.tip - root))
         tips = 4 * self.chord * self.half_thickness
         blunt = 8 * self.half_thickness * (w @ (self.tip - root))
-        disc = math.pi * self.radius**2
-        return {"body": cone + cylinder - footprints, "fins": sides + tips, "base": disc + blunt, "blunt": blunt}
+        base = blunt if sting else math.pi * self.radius**2 + blunt
+        return {"body": cone + cylinder - footprints, "fins": sides + tips, "base": base}
 
 
 def build_quarter(finner: Finner, sting: bool) -> None:
@@ -115,12 +112,10 @@ def build_quarter(finner: Finner, sting: bool) -> None:
         fins += fin
     occ.cut(fluid, fins)
     occ.synchronize()
-    if len(gmsh.model.getEntities(3)) != 1:
-        raise meshing.MeshError("the quarter of the fluid is not one volume")
 
 
-def size_field(finner: Finner, h: float, sting: bool) -> Callable[[int, int, float, float, float], float]:
-    """The size of cells wanted at a point, in d, as gmsh's callback (dimension, tag, x, y, z) -> size; proportional to h."""
+def size_field(finner: Finner, h: float, sting: bool) -> meshing.SizeField:
+    """The size of cells wanted at a point, in d, proportional to h."""
     radius, nose, lead, tail, tip = finner.radius, finner.nose_length, finner.leading_edge, finner.length, finner.tip
     slope = radius / nose
 
@@ -169,109 +164,28 @@ def patch_name(finner: Finner, points: np.ndarray, sting: bool) -> str:
     return "farfield"
 
 
-def mesh_quarter(finner: Finner, h: float, sting: bool) -> meshing.TetMesh:
-    """Mesh the quarter; its points on the planes y = 0 and z = 0 are exactly there."""
+def build(h: float, arguments: argparse.Namespace) -> tuple[meshing.TetMesh, list[str]]:
+    """The mesh, and lines that compare it with the exact geometry."""
+    finner, sting = Finner.read(HERE / "geometry.csv"), arguments.base == "sting"
     gmsh.model.add("quarter")
     build_quarter(finner, sting)
-    options = {
-        "General.NumThreads": 1, "Mesh.RandomSeed": 1,  # the same input gives the same mesh
-        "Mesh.MeshSizeExtendFromBoundary": 0, "Mesh.MeshSizeFromPoints": 0, "Mesh.MeshSizeFromCurvature": 0,
-        "Mesh.Algorithm": 6, "Mesh.Algorithm3D": 1, "Mesh.OptimizeThreshold": 0.6,
-    }  # fmt: skip
-    for name, value in options.items():
-        gmsh.option.setNumber(name, value)
-    gmsh.model.mesh.setSizeCallback(size_field(finner, h, sting))
-    gmsh.model.mesh.generate(3)
-    gmsh.model.mesh.removeSizeCallback()
-
-    tags, coordinates, _ = gmsh.model.mesh.getNodes()
-    row = np.zeros(int(tags.max()) + 1, dtype=np.int64)
-    row[tags.astype(np.int64)] = np.arange(len(tags))
-    points = coordinates.reshape(-1, 3).copy()
-    patches: dict[str, list[np.ndarray]] = {}
-    for _, face in gmsh.model.getEntities(2):
-        triangles = row[gmsh.model.mesh.getElementsByType(2, face)[1].astype(np.int64)].reshape(-1, 3)
-        patches.setdefault(patch_name(finner, points[triangles.ravel()], sting), []).append(triangles)
-    tets = row[gmsh.model.mesh.getElementsByType(4)[1].astype(np.int64)].reshape(-1, 4)
-    gmsh.model.remove()
-    mesh = meshing.TetMesh(points, tets, {name: np.concatenate(parts) for name, parts in patches.items()})
-    for name, axis in (("symmetry_y", 1), ("symmetry_z", 2)):
-        points[mesh.patches[name], axis] = 0.0
-    return meshing.relaxed(meshing.split_corners(meshing.oriented(mesh)))
-
-
-def assemble(quarter: meshing.TetMesh, model: str) -> meshing.TetMesh:
-    """The quarter, half or full model, with its symmetry planes in the one patch `symmetry`."""
-    mesh = quarter
-    if model in ("half", "full"):
-        mesh = meshing.mirrored(mesh, 2, "symmetry_z")
-    if model == "full":
-        mesh = meshing.mirrored(mesh, 1, "symmetry_y")
-    planes = [mesh.patches.pop(name) for name in ("symmetry_y", "symmetry_z") if name in mesh.patches]
-    if planes:
-        mesh.patches["symmetry"] = np.concatenate(planes)
-    order = ["body", "fins", "base", "sting", "symmetry", "farfield"]
-    return meshing.TetMesh(mesh.points, mesh.tets, {name: mesh.patches[name] for name in order if name in mesh.patches})
-
-
-def report(finner: Finner, mesh: meshing.TetMesh, model: str, sting: bool) -> list[str]:
-    """Lines that compare the patches with the exact geometry, and check the symmetry."""
-    share = {"quarter": 0.25, "half": 0.5, "full": 1.0}[model]
-    exact = finner.exact_areas()
-    exact["base"] = exact["blunt"] if sting else exact["base"]
-    lines = []
-    for name, patch in mesh.patches.items():
-        area = np.linalg.norm(meshing.area_vectors(mesh.points, patch), axis=1).sum()
-        line = f"{name}: {len(patch)} triangles, area {area:.6f} d^2"
-        if name in exact:
-            line += f", exact {share * exact[name]:.6f} ({100 * (area / (share * exact[name]) - 1):+.3f} %)"
-        lines.append(line)
+    quarter = meshing.mesh_quarter(size_field(finner, h, sting), lambda points: patch_name(finner, points, sting))
+    order = ["body", "fins", "base", "sting", "symmetry_y", "symmetry_z", "farfield"]
+    quarter.patches = {name: quarter.patches[name] for name in order if name in quarter.patches}
+    mesh, symmetry = meshing.unfolded(quarter, arguments.model)
+    share = meshing.MODELS[arguments.model]
+    exact = {name: share * area for name, area in finner.exact_areas(sting).items()}
     x, y, z = mesh.points[np.unique(mesh.patches["body"])].T
     deviation = np.abs(np.hypot(y, z) - np.minimum(x / finner.nose_length, 1.0) * finner.radius).max()
-    lines.append(f"body points at most {deviation:.1e} d off the true cone and cylinder")
-    axes = {"quarter": {}, "half": {"z": 2}, "full": {"y": 1, "z": 2}}[model]
-    for name, axis in axes.items():
-        if not meshing.is_symmetric(mesh, axis):
-            raise meshing.MeshError(f"the mesh is not its own mirror image about {name} = 0")
-        lines.append(f"mirror image about {name} = 0: identical bit for bit")
-    return lines
+    true = f"body points at most {deviation:.1e} d off the true cone and cylinder"
+    return mesh, [*meshing.patch_report(mesh, exact), true, *symmetry]
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0], epilog="Lengths are in body diameters.")
-    sizes = parser.add_mutually_exclusive_group()
-    sizes.add_argument("--level", choices=LEVELS, default="coarse", help="named size (default: coarse)")
-    known = ", ".join(f"{name} {size}" for name, size in LEVELS.items())
-    sizes.add_argument("--size", type=float, metavar="S", help=f"cell size h on the body in d, instead of a level's: {known}")
-    parser.add_argument("--model", choices=("quarter", "half", "full"), default="half", help="half is y >= 0 (default)")
+    parser = meshing.command_line(__doc__, LEVELS, "body diameter d")
+    parser.add_argument("--model", choices=meshing.MODELS, default="half", help="half is y >= 0 (default)")
     parser.add_argument("--base", choices=("jet", "sting"), default="jet", help="sting: the cylinder goes on to the outflow")
-    parser.add_argument("--format", choices=("4.1", "2.2"), default="4.1", help="version of the .msh file (default: 4.1)")
-    parser.add_argument("--ascii", action="store_true", help="text instead of binary")
-    parser.add_argument("-o", "--output", type=Path, required=True, metavar="FILE.msh")
-    arguments = parser.parse_args()
-    h = LEVELS[arguments.level] if arguments.size is None else arguments.size
-    if not 0.02 <= h <= 0.2:
-        parser.error(f"--size {h} is outside 0.02 to 0.2")
-    if arguments.output.suffix != ".msh":
-        parser.error(f"the output '{arguments.output}' must end in .msh")
-    if not os.access(arguments.output.resolve().parent, os.W_OK):
-        parser.error(f"cannot write in the folder '{arguments.output.resolve().parent}'")
-
-    start = time.perf_counter()
-    gmsh.initialize(readConfigFiles=False)  # a user's settings would change the mesh
-    gmsh.option.setNumber("General.Terminal", 0)
-    sting = arguments.base == "sting"
-    try:
-        finner = Finner.read(HERE / "geometry.csv")
-        mesh = assemble(mesh_quarter(finner, h, sting), arguments.model)
-        lines = meshing.check(mesh) + report(finner, mesh, arguments.model, sting)
-        meshing.write(mesh, arguments.output, arguments.format, arguments.ascii)
-    except Exception as error:  # gmsh raises bare Exception
-        sys.exit(f"mesh.py: {error}")
-    finally:
-        gmsh.finalize()
-    print(f"{arguments.output}: {arguments.model} model, base {arguments.base}, h = {h} d, {time.perf_counter() - start:.1f} s")
-    print("\n".join(lines))
+    meshing.run(parser, LEVELS, build)
 
 
 if __name__ == "__main__":

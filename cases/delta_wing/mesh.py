@@ -13,14 +13,13 @@ import sys
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
-sys.path[:0] = [str(HERE.parents[1] / "scripts"), str(HERE.parent / "sharp_cone")]
+sys.path.insert(0, str(HERE.parents[1] / "scripts"))
 
 try:
     import gmsh
     import numpy as np
 
     import meshing
-    import sector
 except ImportError as error:
     sys.exit(f"mesh.py: {error}; install the Debian packages python3-gmsh and python3-numpy and run with /usr/bin/python3")
 
@@ -77,9 +76,9 @@ def build(h: float, arguments: argparse.Namespace) -> tuple[meshing.TetMesh, lis
     """The mesh, and lines that compare its patches with the exact wing."""
     gmsh.model.add("quarter")
     build_quarter()
-    quarter = sector.mesh_quarter(size_field(h), patch_name)
-    mesh, symmetry = sector.unfolded(quarter, arguments.model)
-    share = sector.MODELS[arguments.model]
+    quarter = meshing.mesh_quarter(size_field(h), patch_name)
+    mesh, symmetry = meshing.unfolded(quarter, arguments.model)
+    share = meshing.MODELS[arguments.model]
     side = 0.5 * math.hypot(SPAN, HEIGHT, SPAN * HEIGHT)  # of the triangle with its corners at the apex, a tip and the ridge
     exact = {"wing": share * 4.0 * side, "base": share * 2.0 * SPAN * HEIGHT}
     return mesh, meshing.patch_report(mesh, exact) + symmetry
@@ -87,7 +86,7 @@ def build(h: float, arguments: argparse.Namespace) -> tuple[meshing.TetMesh, lis
 
 def main() -> None:
     parser = meshing.command_line(__doc__, LEVELS, "root chord")
-    parser.add_argument("--model", choices=sector.MODELS, default="half", help="half is y >= 0 (default)")
+    parser.add_argument("--model", choices=meshing.MODELS, default="half", help="half is y >= 0 (default)")
     meshing.run(parser, LEVELS, build)
 
 

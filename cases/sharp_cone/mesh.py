@@ -21,7 +21,6 @@ try:
     import numpy as np
 
     import meshing
-    import sector
 except ImportError as error:
     sys.exit(f"mesh.py: {error}; install the Debian packages python3-gmsh and python3-numpy and run with /usr/bin/python3")
 
@@ -123,17 +122,17 @@ def build(h: float, arguments: argparse.Namespace) -> tuple[meshing.TetMesh, lis
     shock = shock_angle(arguments.mach)
     gmsh.model.add("quarter")
     build_quarter(shock + MARGIN, h)
-    quarter = sector.mesh_quarter(size_field(h, shock), patch_name)
+    quarter = meshing.mesh_quarter(size_field(h, shock), patch_name)
     compensate_chords(quarter)
-    mesh, symmetry = sector.unfolded(quarter, arguments.model)
-    share = sector.MODELS[arguments.model]
+    mesh, symmetry = meshing.unfolded(quarter, arguments.model)
+    share = meshing.MODELS[arguments.model]
     exact = {"body": share * math.pi * SLOPE * math.hypot(1.0, SLOPE), "base": share * math.pi * SLOPE**2}
     return mesh, meshing.patch_report(mesh, exact) + symmetry
 
 
 def main() -> None:
     parser = meshing.command_line(__doc__, LEVELS, "cone length")
-    parser.add_argument("--model", choices=sector.MODELS, default="half", help="half is y >= 0 (default)")
+    parser.add_argument("--model", choices=meshing.MODELS, default="half", help="half is y >= 0 (default)")
     parser.add_argument("--mach", type=float, default=1.58, help="the lowest Mach number for this mesh, 1.58 (default) to 3")
     meshing.run(parser, LEVELS, build)
 
