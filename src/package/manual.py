@@ -1,0 +1,126 @@
+#!/usr/bin/python3
+"""Writes the man page of the program, gzipped: verbs, options and keys of the case as the program itself tells them.
+
+usage: manual.py PROGRAM OUTPUT.1.gz
+"""
+
+from __future__ import annotations
+
+import gzip
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+DESCRIPTION = """\
+alphadot computes the dynamic stability derivatives of missiles and aircraft, above all the acceleration derivative Cm_alphadot.
+It solves the Euler equations on tetrahedral meshes.
+A case is described by a TOML file; its mesh is a Gmsh (2.2, 4.1), SU2 or UGRID file.
+Started by
+.BR mpirun (1)
+or srun it runs on any number of ranks, with the same result.
+"""
+
+AFTER = r"""
+.SH FILES
+In the folder of a run:
+.TP
+.I result.json
+status, forces, derivatives with their uncertainty, reference, cost and provenance
+.TP
+.I history.h5, history.csv
+angles, rates and loads of every component at every step of a motion; the latter grows while the run works
+.TP
+.I steady.csv
+residual and loads at every iteration of the steady march, likewise
+.TP
+.I progress.json
+the latest state, while the run works
+.TP
+.I flow.vtkhdf, surface.vtkhdf
+the flow, for ParaView 5.11 or later
+.TP
+.I derivatives.csv, derivatives.st, derivatives.jsbsim.xml
+of the verb derivatives: for spreadsheets, readers of AVL's files and JSBSim
+.TP
+.I checkpoint_NNNNNN.vtkhdf
+what \-\-restart goes on from
+.TP
+.I case.toml
+the case with every default filled in
+.TP
+.I stop
+made by the user, this file ends the run with a checkpoint
+.SH SIGNALS
+.TP
+.B USR1
+write a checkpoint and go on
+.TP
+.B USR2
+write a checkpoint and end
+.TP
+.BR TERM ", " INT
+end as safely as the second that mpirun leaves allows
+.SH EXIT STATUS
+.nf
+0  converged, or completed
+1  error in the input or the environment; the message has file, line and remedy
+2  wrong command line
+3  interrupted
+4  diverged
+.fi
+.SH EXAMPLES
+.nf
+mpirun \-n 8 alphadot run missile.toml \-\-out runs/first
+alphadot watch runs/first
+mpirun \-n 8 alphadot derivatives missile.toml \-\-set freestream.mach=2 \-\-out runs/linear
+alphadot derive runs/first/history.h5 \-\-center 0.7
+.fi
+.SH SEE ALSO
+.BR mpirun (1),
+.BR gmsh (1);
+alphadot\-sweep \-\-help, for many runs and a report on them
+"""
+
+
+def told(program: str, *arguments: str) -> str:
+    return subprocess.run([program, *arguments], check=True, capture_output=True, text=True).stdout
+
+
+def roff(text: str) -> str:
+    """Text with what roff would take for its own escaped."""
+    return re.sub(r"^([.'])", r"\\&\1", text.replace("\\", r"\e").replace("-", r"\-"), flags=re.MULTILINE)
+
+
+def entries(text: str, heading: str) -> list[tuple[str, str]]:
+    """The "  name  meaning" lines below a heading of the help."""
+    block = re.search(rf"^{heading}:\n((?:  .*\n?)+)", text, re.MULTILINE)
+    lines = re.sub(r"\n {10,}", "  ", block[1]).splitlines() if block else []
+    return [tuple(re.split(r" {2,}", line.strip(), maxsplit=1)) for line in lines]
+
+
+def listed(items: list[tuple[str, str]]) -> str:
+    return "".join(f".TP\n.B {roff(name)}\n{roff(meaning)}\n" for name, meaning in items)
+
+
+def manual(program: str) -> str:
+    head = told(program, "--help")
+    version = told(program, "--version").split()[1]
+    verbs = entries(head, "Subcommands")
+    summary = head.splitlines()[0].rstrip(".")
+    page = f'.TH ALPHADOT 1 "" "alphadot {version}" "User Commands"\n'
+    page += f".SH NAME\nalphadot \\- {roff(summary[0].lower() + summary[1:])}\n"
+    page += ".SH SYNOPSIS\n.B alphadot\n.I VERB\n[\\fIoptions\\fR] [\\fIfile\\fR]\n"
+    page += f".SH DESCRIPTION\n{DESCRIPTION}.SH OPTIONS\n{listed(entries(head, 'Options'))}.SH VERBS\n"
+    for verb, meaning in verbs:
+        text = told(program, verb, "--help")
+        own = entries(text, "Positionals") + [entry for entry in entries(text, "Options") if "--help" not in entry[0]]
+        page += f".SS {verb}\n{roff(meaning)}.\n{listed(own)}"
+    keys = roff(told(program, "keys").strip("\n"))
+    return f"{page}.SH CASE FILE\nEvery key, with its meaning, kind and default:\n.PP\n.nf\n{keys}\n.fi{AFTER}"
+
+
+if __name__ == "__main__":
+    if len(sys.argv) != 3:
+        sys.exit(__doc__)
+    Path(sys.argv[2]).write_bytes(gzip.compress(manual(sys.argv[1]).encode(), 9, mtime=0))
