@@ -1,7 +1,7 @@
 #!/usr/bin/python3
-"""Writes the man page of the program, gzipped: verbs, options and keys of the case as the program itself tells them.
+"""Writes the man pages alphadot.1.gz and alphadot-sweep.1.gz, as the programs themselves tell of their options and keys.
 
-usage: manual.py PROGRAM OUTPUT.1.gz
+usage: manual.py ALPHADOT SWEEP.PY FOLDER
 """
 
 from __future__ import annotations
@@ -79,7 +79,7 @@ alphadot derive runs/first/history.h5 \-\-center 0.7
 .SH SEE ALSO
 .BR mpirun (1),
 .BR gmsh (1);
-alphadot\-sweep \-\-help, for many runs and a report on them
+.BR alphadot\-sweep (1)
 """
 
 
@@ -103,12 +103,32 @@ def listed(items: list[tuple[str, str]]) -> str:
     return "".join(f".TP\n.B {roff(name)}\n{roff(meaning)}\n" for name, meaning in items)
 
 
+def title(name: str, version: str) -> str:
+    return f'.TH {roff(name.upper())} 1 "" "alphadot {version}" "User Commands"\n'
+
+
+def version_of(program: str) -> str:
+    return told(program, "--version").split()[1]
+
+
+def sweep_manual(program: str, script: str) -> str:
+    """The page of sweep.py: its help as it is, then that of each verb."""
+    help_text = told(sys.executable, "-B", script, "--help").replace("sweep.py", "alphadot-sweep")
+    page = title("alphadot-sweep", version_of(program))
+    page += ".SH NAME\nalphadot\\-sweep \\- many runs of alphadot, and a report on them\n.SH DESCRIPTION\n"
+    page += f".nf\n{roff(help_text)}.fi\n.SH VERBS\n"
+    for verb in re.findall(r"^  alphadot-sweep ([a-z]+) ", help_text, re.MULTILINE):
+        text = told(sys.executable, "-B", script, verb, "--help").replace("sweep.py", "alphadot-sweep")
+        page += f".SS {verb}\n.nf\n{roff(text)}.fi\n"
+    return page + ".SH SEE ALSO\n.BR alphadot (1)\n"
+
+
 def manual(program: str) -> str:
     head = told(program, "--help")
-    version = told(program, "--version").split()[1]
+    version = version_of(program)
     verbs = entries(head, "Subcommands")
     summary = head.splitlines()[0].rstrip(".")
-    page = f'.TH ALPHADOT 1 "" "alphadot {version}" "User Commands"\n'
+    page = title("alphadot", version)
     page += f".SH NAME\nalphadot \\- {roff(summary[0].lower() + summary[1:])}\n"
     page += ".SH SYNOPSIS\n.B alphadot\n.I VERB\n[\\fIoptions\\fR] [\\fIfile\\fR]\n"
     page += f".SH DESCRIPTION\n{DESCRIPTION}.SH OPTIONS\n{listed(entries(head, 'Options'))}.SH VERBS\n"
@@ -121,6 +141,8 @@ def manual(program: str) -> str:
 
 
 if __name__ == "__main__":
-    if len(sys.argv) != 3:
+    if len(sys.argv) != 4:
         sys.exit(__doc__)
-    Path(sys.argv[2]).write_bytes(gzip.compress(manual(sys.argv[1]).encode(), 9, mtime=0))
+    alphadot, sweep, folder = sys.argv[1:]
+    for name, text in (("alphadot", manual(alphadot)), ("alphadot-sweep", sweep_manual(alphadot, sweep))):
+        Path(folder, f"{name}.1.gz").write_bytes(gzip.compress(text.encode(), 9, mtime=0))
