@@ -187,23 +187,29 @@ def loop_figures(results: Results, folder: Path) -> list[Picture]:
 
 
 def draw_loop(entry: Entry, history: dict[str, np.ndarray], center: float, folder: Path) -> list[Picture]:
-    """The loop of Cm against alpha about `center`, and the same without its static part, where it can be seen."""
+    """The loop of Cm against alpha about `center`, and the same without its static part, where it can be seen.
+
+    The static part is a parabola: the line that the derivative gives, and mean and curvature fitted to what the ellipse leaves.
+    """
     with h5py.File(entry.run.folder / "history.h5") as file:
         k, mean, amplitude = (float(file.attrs[name]) for name in ("reduced_frequency", "alpha", "amplitude"))
     here, forces, dx = entry.here.about(center), entry.result["forces"], center - entry.here.center
     alpha = np.degrees(history["alpha"])
     cm = history["total/Cm"] + dx * history["total/CN"]
     fitted = history["t_star"] > math.pi / k - 1e-6  # the fit leaves out the first half cycle
-    line = lambda degrees: forces["Cm"] + dx * forces["CN"] + here.Cm_alpha * np.radians(degrees - mean)
-    rest = cm - line(alpha)
     phase = np.linspace(0.0, 2.0 * math.pi, 361)
     swept = mean + amplitude * np.sin(phase)
-    # Cm is a little quadratic in alpha: the mean of the cycle is not the steady value.
-    ellipse = np.mean(rest[fitted]) + here.Cm_alphadot * math.radians(amplitude) * k * np.cos(phase)
+    opening = lambda angle: here.Cm_alphadot * math.radians(amplitude) * k * np.cos(angle)
+    line = lambda degrees: forces["Cm"] + dx * forces["CN"] + here.Cm_alpha * np.radians(degrees - mean)
+    left = cm - line(alpha) - opening(k * history["t_star"])
+    columns = np.stack([np.ones_like(alpha), (alpha - mean) ** 2], axis=1)
+    offset, curvature = np.linalg.lstsq(columns[fitted], left[fitted], rcond=None)[0]
+    static = lambda degrees: line(degrees) + offset + curvature * (degrees - mean) ** 2
+    rest, ellipse = cm - static(alpha), opening(phase)
     pictures = []
     for name, scale, base_at, base_curve, ylabel, title in (
-        ("loop", 1.0, line(alpha), line(swept), f"Cm about {center:.3f} d, nose up +", "Cm against alpha"),
-        ("loop_open", 1e3, 0.0 * alpha, 0.0 * swept, "10³ × (Cm − static line)", "without its static part"),
+        ("loop", 1.0, static(alpha), static(swept), f"Cm about {center:.3f} d, nose up +", "Cm against alpha"),
+        ("loop_open", 1e3, 0.0 * alpha, 0.0 * swept, "10³ × (Cm − static part)", "without its static part"),
     ):
         figure, axes = panel("angle of attack α, deg", ylabel)
         axes.plot(
@@ -212,7 +218,7 @@ def draw_loop(entry: Entry, history: dict[str, np.ndarray], center: float, folde
             color=MEASURED,
             lw=1,
             ls="--",
-            label=rf"static line, $C_{{m\alpha}}$ = {here.Cm_alpha:.2f}",
+            label=rf"static part, slope $C_{{m\alpha}}$ = {here.Cm_alpha:.2f}",
         )
         curve = scale * (base_curve + ellipse)
         axes.plot(swept, curve, color=PAPER, lw=1.6, label=rf"ellipse, $C_{{m\dot\alpha}}$ = {here.Cm_alphadot:.2f}")
