@@ -146,7 +146,7 @@ std::vector<CaseKey> make_keys() {
       .key("orders", &DerivativeSettings::orders, NumberValue{.above = 0, .to = 12},
            "decades that the preconditioned linear residual must drop")
       .key("directions", &DerivativeSettings::directions, IntegerValue{.from = 2, .to = 1000},
-           "of the Krylov space of GMRES, which all right-hand sides share; 40 bytes a cell each")
+           "of the Krylov space of GMRES before it begins anew; 40 bytes a cell each")
       .key("max_iterations", &DerivativeSettings::max_iterations, count, "limit of linear iterations");
 
   Table(keys, "output", &Case::output)

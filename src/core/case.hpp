@@ -84,7 +84,7 @@ struct UnsteadySettings {
 struct DerivativeSettings {
   SensitivityMethod method = SensitivityMethod::gmres;
   Real orders = 3;      ///< decades that the preconditioned residual must drop
-  int directions = 80;  ///< of the Krylov space, shared by all right-hand sides, before it begins anew
+  int directions = 80;  ///< of the Krylov space before it begins anew
   int max_iterations = 300;
 
   bool operator==(const DerivativeSettings&) const = default;

@@ -10,8 +10,8 @@
 namespace alphadot {
 
 /// Directions z with orthonormal images w = A z of a linear operator: the generalised conjugate residual form
-/// of GMRES (Eisenstat, Elman & Schultz 1983). Several right-hand sides share the directions, also one that
-/// comes up later. Kept in single precision, 40 bytes a cell and direction; sums are in double.
+/// of GMRES (Eisenstat, Elman & Schultz 1983). Several right-hand sides share the directions.
+/// Kept in single precision, 40 bytes a cell and direction; sums are in double.
 class SearchSpace {
  public:
   /// For vectors of `cells` on this rank; holds up to `capacity` directions.

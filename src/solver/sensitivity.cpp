@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "core/error.hpp"
+#include "solver/search_space.hpp"
 
 namespace alphadot {
 
@@ -96,12 +97,13 @@ class Lockstep {
  public:
   Lockstep(ImplicitIteration& iteration, const Conditions<Real>& conditions,
            std::span<const SensitivityProblem> problems, const DerivativeSettings& settings,
-           SearchSpace& space, const std::function<bool()>& go_on)
+           const std::function<bool()>& go_on)
       : iteration_(iteration),
         comm_(iteration.communicator()),
         problems_(problems),
         settings_(settings),
-        space_(space),
+        space_(static_cast<std::size_t>(iteration.discretization().domain().owned_cells), settings.directions,
+               comm_),
         go_on_(go_on),
         tangent_(iteration.discretization(), comm_, iteration.flow(), conditions, iteration.moment_center()) {
     const auto cells = static_cast<std::size_t>(iteration.discretization().domain().owned_cells);
@@ -251,7 +253,7 @@ class Lockstep {
   const Communicator& comm_;
   std::span<const SensitivityProblem> problems_;
   DerivativeSettings settings_;
-  SearchSpace& space_;
+  SearchSpace space_;
   const std::function<bool()>& go_on_;
   bool is_stopped_ = false;
   Real target_ = std::pow(10.0, -settings_.orders);
@@ -266,8 +268,8 @@ class Lockstep {
 template <int N>
 bool solve_group(ImplicitIteration& iteration, const Conditions<Real>& conditions,
                  std::span<const SensitivityProblem> problems, const DerivativeSettings& settings,
-                 SearchSpace& space, const std::function<bool()>& go_on, std::vector<Sensitivity>& out) {
-  auto results = Lockstep<N>(iteration, conditions, problems, settings, space, go_on).solve();
+                 const std::function<bool()>& go_on, std::vector<Sensitivity>& out) {
+  auto results = Lockstep<N>(iteration, conditions, problems, settings, go_on).solve();
   if (!results) return false;
   for (auto& result : *results) out.push_back(std::move(result));
   return true;
@@ -277,12 +279,7 @@ bool solve_group(ImplicitIteration& iteration, const Conditions<Real>& condition
 
 SensitivitySolver::SensitivitySolver(ImplicitIteration& iteration, const Conditions<Real>& conditions,
                                      const DerivativeSettings& settings, std::function<bool()> go_on)
-    : iteration_(iteration),
-      conditions_(conditions),
-      settings_(settings),
-      go_on_(std::move(go_on)),
-      space_(static_cast<std::size_t>(iteration.discretization().domain().owned_cells), settings.directions,
-             iteration.communicator()) {
+    : iteration_(iteration), conditions_(conditions), settings_(settings), go_on_(std::move(go_on)) {
   iteration.linearise(conditions, {.cfl = linear_cfl});
 }
 
@@ -294,7 +291,7 @@ std::vector<Sensitivity> SensitivitySolver::solve(const std::vector<SensitivityP
     const auto solve = group.size() == 3   ? solve_group<3>
                        : group.size() == 2 ? solve_group<2>
                                            : solve_group<1>;
-    if (!solve(iteration_, conditions_, group, settings_, space_, go_on_, out)) return {};
+    if (!solve(iteration_, conditions_, group, settings_, go_on_, out)) return {};
     begin += group.size();
   }
   return out;

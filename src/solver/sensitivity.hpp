@@ -8,7 +8,6 @@
 
 #include "core/case.hpp"
 #include "solver/implicit_iteration.hpp"
-#include "solver/search_space.hpp"
 #include "solver/tangent.hpp"
 
 namespace alphadot {
@@ -34,8 +33,8 @@ struct Sensitivity {
 };
 
 /// Solves linear problems about one steady flow, up to three at a time with one differentiated residual,
-/// preconditioned by (or, for the method `march`, iterated with) the implicit scheme of `iteration`. All
-/// problems share the directions found so far.
+/// preconditioned by (or, for the method `march`, iterated with) the implicit scheme of `iteration`. Those
+/// that are solved together share their directions.
 class SensitivitySolver {
  public:
   /// So many problems are solved together.
@@ -50,14 +49,11 @@ class SensitivitySolver {
   /// unstable cell. Collective.
   std::vector<Sensitivity> solve(const std::vector<SensitivityProblem>& problems);
 
-  std::size_t bytes() const { return space_.bytes(); }
-
  private:
   ImplicitIteration& iteration_;
   Conditions<Real> conditions_;
   DerivativeSettings settings_;
   std::function<bool()> go_on_;
-  SearchSpace space_;
 };
 
 }  // namespace alphadot
