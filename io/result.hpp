@@ -28,6 +28,8 @@ inline constexpr Real not_measured = std::numeric_limits<Real>::quiet_NaN();
 struct PerformanceResult {
   Real wall_s = not_measured;
   Real cpu_s = not_measured;  ///< over all ranks
+  Real steady_wall_s = not_measured,
+       steady_cpu_s = not_measured;  ///< of these, the march to the steady state
   std::int64_t iterations = 0;
   Real core_us_per_cell_iteration = not_measured;
   Real bytes_per_cell = not_measured;

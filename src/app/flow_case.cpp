@@ -180,6 +180,7 @@ RunStatus FlowCase::march() {
     }
     return !(wish.stop && p.resumable);
   };
+  const Timer timer;
   auto result =
       march_to_steady(iteration_, now, settings().steady, settings().space.order, observe, steady_state_);
   if (result.status == RunStatus::diverged) {
@@ -190,6 +191,8 @@ RunStatus FlowCase::march() {
     progress_.begin_steady(0);
     result = march_to_steady(iteration_, now, gentler(settings().steady), settings().space.order, observe);
   }
+  steady_wall_ = timer.wall();
+  steady_cpu_ = timer.cpu();
   steady_report_ = result.report;
   if (result.status == RunStatus::interrupted) message_ = checkpoints_.stop_reason();
   if (result.status == RunStatus::diverged)
@@ -218,6 +221,8 @@ PerformanceResult FlowCase::performance() const {
   const Real cells = static_cast<Real>(setup_.mesh.cells);
   out.wall_s = comm_.max(timer_.wall());
   out.cpu_s = comm_.sum(timer_.cpu());
+  out.steady_wall_s = comm_.max(steady_wall_);
+  out.steady_cpu_s = comm_.sum(steady_cpu_);
   out.iterations = iteration_.iterations();
   out.core_us_per_cell_iteration =
       1e6 * out.cpu_s / (cells * static_cast<Real>(std::max<GlobalIndex>(out.iterations, 1)));

@@ -82,6 +82,7 @@ class FlowCase {
   Motion motion_;
   SteadyState steady_state_;
   FlowReport steady_report_;
+  Real steady_wall_ = not_measured, steady_cpu_ = not_measured;  // of the march on this rank
   std::string message_;
 };
 
