@@ -1,0 +1,51 @@
+"""What the comparisons with exact solutions share: runs of a case on a mesh, and the tables of exact values.
+
+Set by CTest: ALPHADOT (the program), MESHES (folder of the meshes that the fixtures make).
+"""
+
+from __future__ import annotations
+
+import csv
+import json
+import os
+import subprocess
+import unittest
+from pathlib import Path
+
+CASES = Path(__file__).resolve().parents[2] / "cases"
+MESHES = Path(os.environ["MESHES"])
+
+
+def run(folder: Path, verb: str, case: str, mesh: str, settings: dict[str, object]) -> dict:
+    """The result of `alphadot verb cases/<case>` on a mesh of MESHES, in `folder`; `settings` replace keys of the case.
+
+    CTest's own limit ends a run that hangs.
+    """
+    overrides = []
+    for key, value in {"mesh.file": MESHES / mesh, **settings}.items():
+        overrides += ["--set", f"{key}={value}"]
+    subprocess.run([os.environ["ALPHADOT"], verb, CASES / case, "--out", folder, "--quiet", *overrides], check=True)
+    return json.loads((folder / "result.json").read_text())
+
+
+def table(path: str) -> list[dict[str, float]]:
+    """Rows of a file of exact values below cases/; columns that are no numbers are left out."""
+
+    def number(text: str) -> float | None:
+        try:
+            return float(text)
+        except ValueError:
+            return None
+
+    with open(CASES / path) as file:
+        rows = csv.DictReader(line for line in file if not line.startswith("#"))
+        return [{name: number(value) for name, value in row.items() if number(value) is not None} for row in rows]
+
+
+class ExactCase(unittest.TestCase):
+    """A comparison with exact values."""
+
+    def assert_close(self, name: str, found: float, exact: float, share: float, of: float | None = None) -> None:
+        """`found` is within `share` of the exact value (or `of` another scale)."""
+        with self.subTest(name):
+            self.assertLessEqual(abs(found - exact), share * abs(exact if of is None else of), f"{found} is not {exact}")

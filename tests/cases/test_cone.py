@@ -1,0 +1,70 @@
+#!/usr/bin/python3
+"""The sharp cone beside Taylor and Maccoll's flow and its exact derivatives (cases/sharp_cone/reference)."""
+
+from __future__ import annotations
+
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+import numpy as np
+
+from exact import CASES, ExactCase, run, table
+
+sys.path.insert(0, str(CASES / "sharp_cone"))
+import compare
+
+STEADY = table("sharp_cone/reference/exact_cone_steady.csv")
+NAMES = ("CN_alpha", "CN_q", "Cm_q", "CN_alphadot", "Cm_alphadot")
+(EXACT,) = (
+    row
+    for row in table("sharp_cone/reference/exact_cone_derivatives.csv")
+    if abs(row["x_ref_over_l"] - 2 / 3) < 1e-3 and abs(row["CN_q"] - 0.543) < 1e-3
+)
+
+
+def derivatives(case: str, mesh: str) -> dict[str, float]:
+    """About two thirds of the length, per radian."""
+    with tempfile.TemporaryDirectory() as folder:
+        found = run(Path(folder), "derivatives", f"sharp_cone/{case}", mesh, {})["derivatives"]
+    return {name: entry["value"] for name, entry in found.items()}
+
+
+class Steady(ExactCase):
+    def test_surface_pressure_and_shock(self) -> None:
+        for mach in (1.58, 2.5):
+            with tempfile.TemporaryDirectory() as folder:
+                settings = {"freestream.mach": mach, "steady.orders": 6}
+                run(Path(folder), "run", "sharp_cone/derivatives.toml", "cone_medium.msh", settings)
+                found, _ = compare.computed(Path(folder))
+            exact = compare.exact(mach)
+            self.assert_close(f"Cp at Mach {mach}", found.cp, exact.cp, 0.005)
+            self.assert_close(f"shock at Mach {mach}", found.shock, exact.shock, 0.5, of=1.0)
+
+    def test_flow_that_the_shock_is_measured_with(self) -> None:
+        # From the exact surface pressure to the exact pressure behind the shock, but for the loss of total pressure.
+        for row in STEADY:
+            behind = compare.continued(row["Mach"], row["Cp_surface"], np.linspace(10.01, row["shock_angle_deg"], 1001))[-1]
+            self.assert_close(f"Mach {row['Mach']}", behind, row["p_behind_shock_over_pinf"], 2.0 * (1.0 - row["p02_over_p01"]) + 2e-5)
+
+
+class Derivatives(ExactCase):
+    def test_half_model(self) -> None:
+        tiny, medium = derivatives("derivatives.toml", "cone_tiny.msh"), derivatives("derivatives.toml", "cone_medium.msh")
+        for name in NAMES:
+            self.assert_close(name, medium[name], EXACT[name], 0.01)
+            with self.subTest(name):
+                self.assertLess(abs(medium[name] - EXACT[name]), 0.5 * abs(tiny[name] - EXACT[name]))
+
+    def test_full_model_is_the_same_in_yaw(self) -> None:
+        # Turned by a right angle an axisymmetric body meets the same flow: the nose to starboard for the nose up. The mesh is its own
+        # mirror image, but not when turned.
+        found = derivatives("full.toml", "cone_full.msh")
+        for yaw, pitch in (("CY_beta", "CN_alpha"), ("CY_r", "CN_q"), ("CY_betadot", "CN_alphadot"), ("Cn_r", "Cm_q")):
+            sign = -1.0 if "beta" in yaw else 1.0  # beta is positive with the wind from starboard, alpha with the wind from below
+            self.assert_close(yaw, found[yaw], sign * found[pitch], 0.01)
+
+
+if __name__ == "__main__":
+    unittest.main()
