@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <string>
+#include <utility>
 
 #include "core/error.hpp"
 #include "partition/build_subdomain.hpp"
@@ -41,7 +42,11 @@ Subdomain distribute(const Mesh& mesh, const Communicator& comm, Real scale) {
 
 Subdomain distribute(const Mesh& mesh, const std::vector<int>& owner, const Communicator& comm, Real scale) {
   comm.on_root([&] { check_owners(mesh, owner, comm.size()); });
-  Share share = scatter_shares(mesh, owner, comm);
+  return distribute(scatter(mesh, owner, comm), comm, scale);
+}
+
+Subdomain distribute(MeshPart part, const Communicator& comm, Real scale) {
+  Share share = gather_share(std::move(part), comm);
   Subdomain domain;
   comm.on_all([&] { domain = build_subdomain(std::move(share), scale); });
   return domain;

@@ -8,11 +8,11 @@
 #include "core/communicator.hpp"
 #include "core/types.hpp"
 #include "core/vec3.hpp"
-#include "partition/mesh.hpp"
+#include "partition/mesh_part.hpp"
 
 namespace alphadot {
 
-/// Raw material of a Subdomain, as cut from the mesh: local point ids, nothing ordered for speed yet.
+/// Raw material of a Subdomain: local point ids, nothing ordered for speed yet.
 struct Share {
   GlobalIndex global_cells = 0, global_points = 0;
   std::vector<std::string> patch_names;
@@ -26,12 +26,13 @@ struct Share {
   std::vector<Vec3> points;            ///< [points] mesh units
 
   std::vector<std::array<Index, 3>> triangles;  ///< [triangles] local point ids; on faces of owned cells
-  std::vector<GlobalIndex> triangle_ids;        ///< [triangles] position in the concatenated patches
+  std::vector<GlobalIndex> triangle_ids;        ///< [triangles] position among all triangles of the mesh
   std::vector<Index> triangle_patch;            ///< [triangles] index into patch_names
 };
 
-/// Gives every rank its share. `mesh` and `owner` (the rank of every cell) are read on the root only, which
-/// sends one share after the other and holds no more than one at a time. Collective.
-Share scatter_shares(const Mesh& mesh, const std::vector<int>& owner, const Communicator& comm);
+/// Finds the surroundings of every rank's part: ranks that use the same points send each other the cells
+/// around them. No rank holds more than its part and its surroundings; about 70 bytes a cell beside the part.
+/// Collective. Throws InputError on all ranks when a point id is out of range.
+Share gather_share(MeshPart part, const Communicator& comm);
 
 }  // namespace alphadot

@@ -10,6 +10,7 @@
 #include "core/vec3.hpp"
 #include "partition/adjacency.hpp"
 #include "partition/mesh.hpp"
+#include "partition/mesh_part.hpp"
 
 namespace alphadot {
 
@@ -93,5 +94,8 @@ Subdomain distribute(const Mesh& mesh, const Communicator& comm, Real scale = 1.
 /// The same from a given owner of every cell (root only): for tests and for prepared partitions.
 Subdomain distribute(const Mesh& mesh, const std::vector<int>& owner, const Communicator& comm,
                      Real scale = 1.0);
+
+/// The same from a mesh whose cells have reached their owners.
+Subdomain distribute(MeshPart part, const Communicator& comm, Real scale = 1.0);
 
 }  // namespace alphadot
