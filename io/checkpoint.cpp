@@ -12,15 +12,14 @@
 #include "io/files.hpp"
 #include "io/seal.hpp"
 #include "io/stream_from_root.hpp"
-#include "io/stream_to_root.hpp"
 #include "io/vtkhdf_grid.hpp"
+#include "io/write_rows.hpp"
 
 namespace alphadot {
 namespace {
 
 constexpr const char* format_name = "alphadot checkpoint";
 constexpr std::int64_t format_version = 1;
-constexpr GlobalIndex piece_rows = 1 << 18;
 
 /// Sum over cells of a hash of id and state: the same in any order and on any number of ranks.
 class StateSum {
@@ -54,24 +53,6 @@ std::string dataset_of(const CheckpointField& field) {
   return "VTKHDF/CellData/" + field.name;
 }
 
-/// Streams slabs into a new dataset with the same number of elements in every row. Collective; `file` is
-/// empty but on the root.
-template <class Element, class Row>
-void write_rows(std::optional<hdf5::File>& file, const std::string& name, std::span<const Row> slab,
-                GlobalIndex total, GlobalIndex columns, const Communicator& comm) {
-  constexpr auto in_row = static_cast<GlobalIndex>(sizeof(Row) / sizeof(Element));
-  const GlobalIndex rows_of_file = columns == 0 ? in_row : 1;
-  std::optional<hdf5::Dataset> target;
-  comm.on_root([&] { target.emplace(file->create_dataset<Element>(name, total * rows_of_file, columns)); });
-  stream_to_root<Row>(
-      comm, slab,
-      [&](GlobalIndex first, std::span<const Row> piece) {
-        target->write(first * rows_of_file, std::span(reinterpret_cast<const Element*>(piece.data()),
-                                                      piece.size() * static_cast<std::size_t>(in_row)));
-      },
-      piece_rows);
-}
-
 void write_head(const hdf5::File& file, const CheckpointHead& head) {
   auto group = file.create_group("head");
   group.set_attribute("format", format_name);
@@ -94,8 +75,8 @@ Five<Real> state_at(const std::vector<double>& rows, std::size_t i) {
 void verify_states(const hdf5::File& file, const std::string& name, std::int64_t expected) {
   const auto states = file.dataset(name);
   StateSum sum;
-  for (GlobalIndex first = 0; first < states.rows(); first += piece_rows) {
-    const auto piece = states.read<double>(first, std::min(piece_rows, states.rows() - first));
+  for (GlobalIndex first = 0; first < states.rows(); first += rows_in_piece) {
+    const auto piece = states.read<double>(first, std::min(rows_in_piece, states.rows() - first));
     for (std::size_t i = 0; i < piece.size() / 5; ++i)
       sum.add(first + static_cast<GlobalIndex>(i), state_at(piece, i));
   }
@@ -185,7 +166,7 @@ void CheckpointFile::read_fields(const std::string& path, const std::vector<Chec
           const auto values = source->read<double>(first, static_cast<GlobalIndex>(piece.size()));
           for (std::size_t i = 0; i < piece.size(); ++i) piece[i] = state_at(values, i);
         },
-        piece_rows);
+        rows_in_piece);
     cells_.from_slab<Five<Real>>(slab, field.values);
     const auto found = sum_of(field, domain_, comm_);
     comm_.on_root([&] {

@@ -18,8 +18,10 @@ namespace {
 enum class Format { gmsh, su2, ugrid_big_endian, ugrid_little_endian };
 
 [[noreturn]] void fail_unknown(const std::string& path, const std::string& what) {
-  throw InputError(path, 0, what,
-                   "known are Gmsh 2.2 and 4.1 (.msh), SU2 (.su2) and UGRID (.b8.ugrid, .lb8.ugrid)");
+  throw InputError(
+      path, 0, what,
+      "known are Gmsh 2.2 and 4.1 (.msh), SU2 (.su2), UGRID (.b8.ugrid, .lb8.ugrid) and what alphadot "
+      "partition makes of them");
 }
 
 /// Tells the format by the extension.

@@ -32,8 +32,12 @@ struct PerformanceResult {
        steady_cpu_s = not_measured;  ///< of these, the march to the steady state
   std::int64_t iterations = 0;
   Real core_us_per_cell_iteration = not_measured;
-  Real bytes_per_cell = not_measured;
-  Real halo_fraction = not_measured;  ///< share of the wall time spent waiting for other ranks
+  Real bytes_per_cell = not_measured;          ///< of the solver's and the mesh's arrays
+  Real mesh_bytes_per_cell = not_measured;     ///< of the mesh's arrays alone
+  Real reading_bytes_per_cell = not_measured;  ///< the most in memory at a time while the mesh was read
+  Real peak_bytes_per_cell = not_measured;  ///< the most in memory at a time, program and libraries included
+  Real busiest_rank_bytes = not_measured;   ///< the same of the rank that held most
+  Real halo_fraction = not_measured;        ///< share of the wall time spent waiting for other ranks
 };
 
 struct MeshResult {

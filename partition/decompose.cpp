@@ -1,74 +1,98 @@
 #include "partition/decompose.hpp"
 
-#include <metis.h>
-
 #include <algorithm>
 #include <string>
 #include <utility>
 
 #include "core/error.hpp"
+#include "partition/delivery.hpp"
 #include "partition/dual_graph.hpp"
-#include "partition/face_matching.hpp"
+#include "partition/partitioners.hpp"
 
 namespace alphadot {
 
 namespace {
 
-static_assert(sizeof(idx_t) == sizeof(Index), "METIS is built with another index width");
-
-bool connected(const Adjacency& graph) {
-  std::vector<char> seen(static_cast<std::size_t>(graph.rows()), 0);
-  std::vector<Index> queue{0};
-  seen[0] = 1;
-  for (std::size_t next = 0; next < queue.size(); ++next)
-    for (const Index neighbour : graph[queue[next]])
-      if (!std::exchange(seen[neighbour], 1)) queue.push_back(neighbour);
-  return queue.size() == seen.size();
+void check_request(GlobalIndex cells, int parts, Partitioner partitioner, const std::string& file) {
+  if (parts > cells)
+    throw InputError(file, 0, std::to_string(parts) + " ranks for " + std::to_string(cells) + " cells",
+                     "use at most one rank a cell");
+  if (partitioner == Partitioner::metis && cells > most_cells_for_metis)
+    throw InputError(file, 0, std::to_string(cells) + " cells are too many for the 32-bit indices of METIS",
+                     "use PT-Scotch: alphadot partition --method ptscotch");
 }
 
-std::vector<idx_t> k_way(Adjacency& graph, int parts) {
-  std::vector<idx_t> options(METIS_NOPTIONS);
-  METIS_SetDefaultOptions(options.data());
-  options[METIS_OPTION_NUMBERING] = 0;
-  options[METIS_OPTION_SEED] = 1;
-  options[METIS_OPTION_OBJTYPE] = METIS_OBJTYPE_CUT;
-  options[METIS_OPTION_UFACTOR] = 10;                       // parts at most 1 % above the mean
-  options[METIS_OPTION_CONTIG] = connected(graph) ? 1 : 0;  // METIS refuses it otherwise
+/// `size`: cells of every part.
+void check_parts(const std::vector<GlobalIndex>& size, GlobalIndex cells, const std::string& file) {
+  const auto empty = std::count(size.begin(), size.end(), 0);
+  if (empty > 0)
+    throw InputError(file, 0,
+                     std::to_string(size.size()) + " ranks for " + std::to_string(cells) +
+                         " cells: " + std::to_string(empty) + " of them would be without a cell",
+                     "use fewer ranks");
+}
 
-  idx_t cells = graph.rows(), constraints = 1, count = parts, cut = 0;
-  std::vector<idx_t> owner(static_cast<std::size_t>(cells));
-  const int status =
-      METIS_PartGraphKway(&cells, &constraints, graph.begin.data(), graph.items.data(), nullptr, nullptr,
-                          nullptr, &count, nullptr, nullptr, options.data(), &cut, owner.data());
-  if (status != METIS_OK) throw InputError("", 0, "METIS failed with status " + std::to_string(status));
-  return owner;
+std::vector<GlobalIndex> sizes(const std::vector<int>& part_of, int parts) {
+  std::vector<GlobalIndex> size(static_cast<std::size_t>(parts), 0);
+  for (const int part : part_of) ++size[static_cast<std::size_t>(part)];
+  return size;
+}
+
+/// The dual graph's rows of the owned cells, with global ids.
+DistributedGraph graph_of(const Share& share) {
+  const Adjacency local = dual_graph(share.cell_points, share.points.size());
+  DistributedGraph out;
+  for (Index cell = 0; cell < share.owned_cells(); ++cell) {
+    for (const Index neighbour : local[cell]) out.items.push_back(share.cell_ids[neighbour]);
+    out.begin.push_back(static_cast<GlobalIndex>(out.items.size()));
+  }
+  return out;
+}
+
+/// Of items that go to the root only.
+std::vector<int> all_to_root(std::size_t items, const Communicator& comm) {
+  std::vector<int> counts(static_cast<std::size_t>(comm.size()), 0);
+  counts[0] = static_cast<int>(items);
+  return counts;
+}
+
+/// METIS on the root, for a graph that all ranks hold in turn.
+std::vector<int> metis_on_root(const DistributedGraph& graph, int parts, const Communicator& comm) {
+  std::vector<Index> items(graph.items.begin(), graph.items.end()), degrees;
+  for (std::size_t i = 0; i + 1 < graph.begin.size(); ++i)
+    degrees.push_back(static_cast<Index>(graph.begin[i + 1] - graph.begin[i]));
+  Adjacency whole;
+  whole.items = deliver<Index>(items, all_to_root(items.size(), comm), comm).items;
+  const auto all_degrees = deliver<Index>(degrees, all_to_root(degrees.size(), comm), comm);
+  for (const Index degree : all_degrees.items) whole.begin.push_back(whole.begin.back() + degree);
+  std::vector<int> part_of;
+  comm.on_root([&] { part_of = metis_k_way(whole, parts); });
+  return deliver<int>(part_of, all_degrees.counts, comm).items;
 }
 
 }  // namespace
 
 std::vector<int> decompose(const Mesh& mesh, int parts) {
-  const GlobalIndex cells = static_cast<GlobalIndex>(mesh.cells.size());
-  if (parts > cells)
-    throw InputError(mesh.file, 0, std::to_string(parts) + " ranks for " + std::to_string(cells) + " cells",
-                     "use at most one rank a cell");
-  if (cells > max_cells_for_faces)  // 4 neighbours each: half of what METIS's 32-bit indices can count
-    throw InputError(mesh.file, 0,
-                     std::to_string(cells) + " cells are too many for the 32-bit indices of METIS",
-                     "use at most " + std::to_string(max_cells_for_faces) + " cells");
+  const auto cells = static_cast<GlobalIndex>(mesh.cells.size());
+  check_request(cells, parts, Partitioner::metis, mesh.file);
   if (parts == 1) return std::vector<int>(mesh.cells.size(), 0);
-
   Adjacency graph = dual_graph(mesh.cells, mesh.points.size());
-  std::vector<int> owner = k_way(graph, parts);
+  std::vector<int> part_of = metis_k_way(graph, parts);
+  check_parts(sizes(part_of, parts), cells, mesh.file);
+  return part_of;
+}
 
-  std::vector<GlobalIndex> size(static_cast<std::size_t>(parts), 0);
-  for (const int part : owner) ++size[part];
-  const auto empty = std::count(size.begin(), size.end(), 0);
-  if (empty > 0)
-    throw InputError(mesh.file, 0,
-                     std::to_string(parts) + " ranks for " + std::to_string(cells) + " cells: METIS left " +
-                         std::to_string(empty) + " of them without a cell",
-                     "use fewer ranks");
-  return owner;
+std::vector<int> decompose(const Share& share, int parts, Partitioner partitioner, const std::string& file,
+                           const Communicator& comm) {
+  comm.on_all([&] { check_request(share.global_cells, parts, partitioner, file); });
+  if (parts == 1) return std::vector<int>(static_cast<std::size_t>(share.owned_cells()), 0);
+  DistributedGraph graph = graph_of(share);
+  auto part_of = partitioner == Partitioner::metis ? metis_on_root(graph, parts, comm)
+                                                   : ptscotch_k_way(graph, parts, comm);
+  auto size = sizes(part_of, parts);
+  comm.sum(std::span<GlobalIndex>(size));
+  comm.on_all([&] { check_parts(size, share.global_cells, file); });
+  return part_of;
 }
 
 }  // namespace alphadot

@@ -15,6 +15,7 @@
 #include "app/watchdog.hpp"
 #include "core/error.hpp"
 #include "core/log.hpp"
+#include "core/memory.hpp"
 #include "io/case_file.hpp"
 #include "io/files.hpp"
 #include "solver/block_lu_sgs.hpp"
@@ -68,8 +69,14 @@ FlowCase::FlowCase(const CaseArguments& arguments, const Communicator& comm)
       iteration_(discretization_, comm, make_linear_solver(discretization_, comm, setup_.settings.steady),
                  setup_.settings.reference.moment_center),
       motion_(make_motion(setup_.settings, comm)) {
-  spdlog::info("{} cells, {} points on {} rank{}", setup_.mesh.cells, setup_.mesh.points, comm.size(),
-               comm.size() == 1 ? "" : "s");
+  const Real cells = static_cast<Real>(setup_.mesh.cells);
+  const auto& memory = setup_.memory;
+  spdlog::info(
+      "{} cells, {} points on {} rank{}; bytes a cell: mesh {:.0f}, while reading at most {:.0f}; busiest "
+      "rank "
+      "{:.2f} GB",
+      setup_.mesh.cells, setup_.mesh.points, comm.size(), comm.size() == 1 ? "" : "s", memory.arrays / cells,
+      memory.peak / cells, 1e-9 * memory.busiest_rank);
   const auto excluded = excluded_patches();
   if (!excluded.empty()) spdlog::info("left out of the forces: {}", fmt::join(excluded, ", "));
   if (arguments.restart) checkpoints_.begin_from(*arguments.restart);
@@ -227,6 +234,10 @@ PerformanceResult FlowCase::performance() const {
   out.core_us_per_cell_iteration =
       1e6 * out.cpu_s / (cells * static_cast<Real>(std::max<GlobalIndex>(out.iterations, 1)));
   out.bytes_per_cell = comm_.sum(static_cast<Real>(iteration_.bytes())) / cells;
+  out.mesh_bytes_per_cell = setup_.memory.arrays / cells;
+  out.reading_bytes_per_cell = setup_.memory.peak / cells;
+  out.peak_bytes_per_cell = comm_.sum(peak_resident_bytes()) / cells;
+  out.busiest_rank_bytes = comm_.max(peak_resident_bytes());
   out.halo_fraction = comm_.max(iteration_.halo_seconds()) / out.wall_s;
   return out;
 }

@@ -13,6 +13,7 @@
 #include "core/error.hpp"
 #include "io/checkpoint.hpp"
 #include "io/mesh_reader.hpp"
+#include "io/partitioned_mesh.hpp"
 #include "io/seal.hpp"
 
 namespace alphadot {
@@ -26,6 +27,14 @@ void describe_mesh(const std::string& file) {
              mesh.hash());
   for (const auto& patch : mesh.patches)
     fmt::print("  patch {}: {} triangles\n", patch.name, patch.triangles.size());
+}
+
+void describe_partitioned_mesh(const std::string& file) {
+  const auto header = read_partitioned_mesh_header(file);
+  fmt::print(
+      "mesh {}: {} tetrahedra, {} points, {} boundary triangles, in {} pieces, hash {}\n  patches: {}\n",
+      file, header.cells, header.points, header.triangles, header.pieces(), header.hash,
+      fmt::join(header.patch_names, ", "));
 }
 
 void describe_history(const std::string& file) {
@@ -86,7 +95,9 @@ RunStatus info_verb(const std::string& file, const Communicator& comm) {
     if (!std::filesystem::is_regular_file(file))
       throw InputError(file, 0, "there is no such file", "check the path");
     const std::string extension = std::filesystem::path(file).extension();
-    if (extension == ".h5")
+    if (is_partitioned_mesh(file))
+      describe_partitioned_mesh(file);
+    else if (extension == ".h5")
       describe_history(file);
     else if (extension == ".json")
       describe_result(file);

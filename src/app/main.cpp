@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <functional>
 #include <limits>
+#include <map>
 
 #include "app/verbs.hpp"
 #include "core/error.hpp"
@@ -79,6 +80,20 @@ int main(int argc, char** argv) {
   auto& check = *app.add_subcommand("check", "Check case and mesh without running");
   add_case_arguments(check, arguments);
 
+  PartitionArguments cut;
+  auto& partition =
+      *app.add_subcommand("partition", "Prepare a mesh once for reading by any number of ranks at once");
+  partition.add_option("mesh", cut.mesh, "The mesh: any known format, or one prepared before")->required();
+  partition.add_option("-n,--pieces", cut.pieces, "Pieces: the usual number of ranks")
+      ->required()
+      ->check(CLI::Range(1, 1'000'000));
+  partition.add_option("-o,--output", cut.output, "Prepared mesh (default: beside the mesh, with .h5)");
+  partition.add_option("--refine", cut.refinements, "Times that every tetrahedron is cut into eight first")
+      ->check(CLI::Range(0, 8));
+  partition.add_option("--method", cut.partitioner, "metis (one rank cuts) or ptscotch (all ranks together)")
+      ->transform(CLI::CheckedTransformer(std::map<std::string, Partitioner>{
+          {"metis", Partitioner::metis}, {"ptscotch", Partitioner::ptscotch}}));
+
   std::string file;
   Real center = std::numeric_limits<Real>::quiet_NaN();
   auto& derive = *app.add_subcommand("derive", "Derivatives from the history of a motion");
@@ -113,6 +128,7 @@ int main(int argc, char** argv) {
     if (run) return run_verb(arguments, comm);
     if (derivatives) return derivatives_verb(arguments, comm);
     if (check) return check_verb(arguments, comm);
+    if (partition) return partition_verb(cut, comm);
     if (derive) return derive_verb(file, center, comm);
     if (info) return info_verb(file, comm);
     if (watch) return watch_verb(file, once, interval, comm);

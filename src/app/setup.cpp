@@ -9,8 +9,10 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "core/memory.hpp"
 #include "io/case_file.hpp"
 #include "io/mesh_reader.hpp"
+#include "io/partitioned_mesh.hpp"
 
 namespace alphadot {
 
@@ -51,12 +53,9 @@ std::vector<BoundaryKind> match_patches(const Case& settings, const std::vector<
   return kinds;
 }
 
-}  // namespace
-
-Setup load_setup(const Case& settings, const Communicator& comm) {
-  Setup out;
-  out.settings = settings;
-  out.mesh.file = settings.mesh.file;
+/// Reads a mesh that the root holds whole before it is cut.
+void distribute_from_root(Setup& setup, const Communicator& comm) {
+  const auto& settings = setup.settings;
   Mesh mesh;
   comm.on_root([&] {
     mesh = read_mesh(settings.mesh.file);
@@ -64,10 +63,38 @@ Setup load_setup(const Case& settings, const Communicator& comm) {
     std::vector<std::string> names;
     for (const auto& patch : mesh.patches) names.push_back(patch.name);
     match_patches(settings, names);
-    out.mesh.hash = mesh.hash();
+    setup.mesh.hash = mesh.hash();
   });
+  setup.domain = distribute(mesh, comm, settings.mesh.scale);
+}
+
+/// Reads a prepared mesh, every rank its own part.
+void distribute_in_parallel(Setup& setup, const Communicator& comm) {
+  const auto& settings = setup.settings;
+  comm.on_root([&] {
+    const auto header = read_partitioned_mesh_header(settings.mesh.file);
+    match_patches(settings, header.patch_names);
+    setup.mesh.hash = header.hash;
+  });
+  setup.domain = distribute(read_partitioned_mesh(settings.mesh.file, comm), comm, settings.mesh.scale);
+}
+
+}  // namespace
+
+Setup load_setup(const Case& settings, const Communicator& comm) {
+  Setup out;
+  out.settings = settings;
+  out.mesh.file = settings.mesh.file;
+  const Real before = resident_bytes();
+  bool prepared = false;
+  comm.on_root([&] { prepared = is_hdf5(settings.mesh.file); });
+  if (comm.any(prepared))
+    distribute_in_parallel(out, comm);
+  else
+    distribute_from_root(out, comm);
+  const Real peak = peak_resident_bytes() - before;
+  out.memory = {comm.sum(static_cast<Real>(out.domain.bytes())), comm.sum(peak), comm.max(peak)};
   out.mesh.hash = comm.broadcast(out.mesh.hash);
-  out.domain = distribute(mesh, comm, settings.mesh.scale);
   out.mesh.cells = out.domain.global_cells;
   out.mesh.points = out.domain.global_points;
   out.patch_kinds = match_patches(settings, out.domain.patch_names);

@@ -11,19 +11,28 @@
 
 namespace alphadot {
 
+/// What reading and distributing a mesh took, in bytes beyond what the program held before.
+struct ReadingMemory {
+  Real arrays = 0;        ///< of the subdomains of all ranks
+  Real peak = 0;          ///< sum over ranks of the most each held at a time
+  Real busiest_rank = 0;  ///< the most that one rank held
+};
+
 /// What the verbs start from, the same on every rank but for the subdomain.
 struct Setup {
   Case settings;
   MeshResult mesh;
   Subdomain domain;
+  ReadingMemory memory;
   std::vector<BoundaryKind> patch_kinds;  ///< of every patch of the mesh, in its order
 };
 
 /// Reads and checks the case file (on the root; broadcast). Collective. Throws InputError on every rank.
 Case load_case(const std::string& path, const std::vector<std::string>& overrides, const Communicator& comm);
 
-/// Reads, checks and distributes the mesh of a case and matches its patches with [boundary]. Collective.
-/// Throws InputError on every rank.
+/// Reads, checks and distributes the mesh of a case and matches its patches with [boundary]. A mesh prepared
+/// by alphadot partition is read by all ranks at once; any other by the root. Collective. Throws InputError
+/// on every rank.
 Setup load_setup(const Case& settings, const Communicator& comm);
 
 }  // namespace alphadot

@@ -7,6 +7,7 @@
 
 #include "core/communicator.hpp"
 #include "core/run_status.hpp"
+#include "partition/decompose.hpp"
 
 namespace alphadot {
 
@@ -16,6 +17,14 @@ struct CaseArguments {
   std::string folder;                  ///< of the run; empty: as the case says
   /// Go on from this checkpoint; empty: from the newest of the run's folder.
   std::optional<std::string> restart;
+};
+
+struct PartitionArguments {
+  std::string mesh;
+  std::string output;  ///< empty: the mesh's name with the extension .h5
+  int pieces = 1;
+  int refinements = 0;  ///< times that every tetrahedron is cut into eight first
+  Partitioner partitioner = Partitioner::metis;
 };
 
 /// Steady state, then the motion that the case asks for, derivatives, and everything written into the run's
@@ -28,6 +37,9 @@ RunStatus derivatives_verb(const CaseArguments& arguments, const Communicator& c
 
 /// Reads and checks case and mesh, prints what a run would work on.
 RunStatus check_verb(const CaseArguments& arguments, const Communicator& comm);
+
+/// Prepares a mesh for reading by many ranks at once.
+RunStatus partition_verb(const PartitionArguments& arguments, const Communicator& comm);
 
 /// Derivatives from a history file, about any centre along the axis (NaN: that of the history).
 RunStatus derive_verb(const std::string& history_file, Real center_x, const Communicator& comm);

@@ -44,7 +44,10 @@ TEST_F(MeshReader, ReadsEveryFormat) {
 }
 
 TEST_F(MeshReader, RefusesWhatIsNoKnownMesh) {
-  const char* const known = "known are Gmsh 2.2 and 4.1 (.msh), SU2 (.su2) and UGRID (.b8.ugrid, .lb8.ugrid)";
+  const char* const known =
+      "known are Gmsh 2.2 and 4.1 (.msh), SU2 (.su2), UGRID (.b8.ugrid, .lb8.ugrid) and what alphadot "
+      "partition makes of "
+      "them";
   const std::string gmsh = test::gmsh_22(Encoding::text);
   expect_parts(error_in(write("a.vtk", "# vtk")), {"a.vtk: ", "extension", known});
   expect_parts(error_in(write("a.ugrid", "1 2 3")), {"extension", known});

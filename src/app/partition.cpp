@@ -1,0 +1,80 @@
+// The verb "partition": a mesh prepared for reading by many ranks at once.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <utility>
+
+#include "app/verbs.hpp"
+#include "core/error.hpp"
+#include "core/log.hpp"
+#include "core/memory.hpp"
+#include "core/timer.hpp"
+#include "io/mesh_reader.hpp"
+#include "io/partitioned_mesh.hpp"
+#include "partition/decompose.hpp"
+#include "partition/refine.hpp"
+#include "partition/reorder.hpp"
+#include "partition/slabs.hpp"
+
+namespace alphadot {
+
+namespace {
+
+/// Any mesh, in equal stretches of its order (a prepared one: of its pieces).
+MeshPart read_part(const std::string& file, const Communicator& comm) {
+  bool prepared = false;
+  comm.on_root([&] { prepared = is_hdf5(file); });
+  if (comm.any(prepared)) return read_partitioned_mesh(file, comm);
+  Mesh mesh;
+  std::vector<int> owner;
+  comm.on_root([&] {
+    mesh = read_mesh(file);
+    mesh.validate();
+    const EqualShares shares(static_cast<GlobalIndex>(mesh.cells.size()), comm.size());
+    for (GlobalIndex cell = 0; cell < shares.total; ++cell) owner.push_back(shares.rank_of(cell));
+  });
+  return scatter(mesh, owner, comm);
+}
+
+std::string output_of(const PartitionArguments& arguments) {
+  if (!arguments.output.empty()) return arguments.output;
+  return std::filesystem::path(arguments.mesh).replace_extension(".h5");
+}
+
+void check_arguments(const PartitionArguments& arguments) {
+  const auto output = output_of(arguments);
+  std::error_code error;
+  if (std::filesystem::equivalent(arguments.mesh, output, error))
+    throw InputError(output, 0, "the prepared mesh would replace the mesh itself",
+                     "name another file with --output");
+}
+
+}  // namespace
+
+RunStatus partition_verb(const PartitionArguments& arguments, const Communicator& comm) {
+  const Timer time;
+  comm.on_root([&] { check_arguments(arguments); });
+  MeshPart part = read_part(arguments.mesh, comm);
+  for (int level = 0; level < arguments.refinements; ++level) part = refine(std::move(part), comm);
+  auto points = part.points;
+  const auto file = part.file;
+  const Share share = gather_share(std::move(part), comm);
+  const auto piece = decompose(share, arguments.pieces, arguments.partitioner, file, comm);
+  const auto mesh = reorder(share, piece, arguments.pieces, std::move(points), comm);
+  const auto hash = write_partitioned_mesh(output_of(arguments), mesh, comm);
+
+  GlobalIndex largest = 0;
+  for (std::size_t i = 0; i + 1 < mesh.piece_begin.size(); ++i)
+    largest = std::max(largest, mesh.piece_begin[i + 1] - mesh.piece_begin[i]);
+  const auto cells = static_cast<Real>(share.global_cells);
+  spdlog::info(
+      "{}: {} cells, {} points in {} pieces, the largest {:.2f} % above the mean; hash {}\n{:.0f} s, at most "
+      "{:.2f} GB on a rank",
+      output_of(arguments), share.global_cells, share.global_points, arguments.pieces,
+      100 * (static_cast<Real>(largest) * arguments.pieces / cells - 1), hash, time.wall(),
+      1e-9 * comm.max(peak_resident_bytes()));
+  return RunStatus::completed;
+}
+
+}  // namespace alphadot
