@@ -38,6 +38,10 @@ struct PerformanceResult {
   Real peak_bytes_per_cell = not_measured;  ///< the most in memory at a time, program and libraries included
   Real busiest_rank_bytes = not_measured;   ///< the same of the rank that held most
   Real halo_fraction = not_measured;        ///< share of the wall time spent waiting for other ranks
+  Real halo_bytes_per_iteration = not_measured;     ///< sent by all ranks
+  Real most_messages_per_iteration = not_measured;  ///< sent by the rank that sends most
+  Real ghost_fraction = not_measured;               ///< ghosts of all ranks over cells
+  Real load_imbalance = not_measured;               ///< cells of the largest rank over the mean, less one
 };
 
 struct MeshResult {

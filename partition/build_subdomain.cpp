@@ -107,6 +107,7 @@ class Builder {
         }
         point = mine;
       }
+      if (cell == domain_.interior_cells - 1) domain_.interior_points = static_cast<Index>(order.size());
       if (cell == owned_ - 1) domain_.owned_points = static_cast<Index>(order.size());
     }
     domain_.points = permuted(share_.points, order);

@@ -43,6 +43,8 @@ void HaloExchangeBytes::start() {
       out += stride_;
     }
   }
+  traffic_.bytes += static_cast<GlobalIndex>(bytes_sent());
+  traffic_.messages += static_cast<GlobalIndex>(send_buffers_.size());
   if (!requests_.empty()) MPI_Startall(static_cast<int>(requests_.size()), requests_.data());
 }
 
@@ -50,7 +52,7 @@ void HaloExchangeBytes::wait() {
   if (requests_.empty()) return;
   const Real begin = MPI_Wtime();
   MPI_Waitall(static_cast<int>(requests_.size()), requests_.data(), MPI_STATUSES_IGNORE);
-  wait_seconds_ += MPI_Wtime() - begin;
+  traffic_.wait_seconds += MPI_Wtime() - begin;
 }
 
 std::size_t HaloExchangeBytes::bytes_sent() const {

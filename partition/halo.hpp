@@ -18,6 +18,16 @@ namespace alphadot {
 /// Which ghosts an exchange fills: all of them, or only those that share a face with an owned cell.
 enum class HaloWidth { points, faces };
 
+/// What exchanges have cost this rank so far.
+struct HaloTraffic {
+  Real wait_seconds = 0;
+  GlobalIndex bytes = 0, messages = 0;  ///< sent
+
+  friend HaloTraffic operator+(const HaloTraffic& a, const HaloTraffic& b) {
+    return {a.wait_seconds + b.wait_seconds, a.bytes + b.bytes, a.messages + b.messages};
+  }
+};
+
 /// Fills the ghosts of one array of cell values of `stride` bytes each. Bound to the array's address, and to
 /// the domain's send lists, for life. Several exchanges may be under way at once; ranks must start them in
 /// the same order.
@@ -31,8 +41,8 @@ class HaloExchangeBytes {
 
   void start();  ///< packs and sends the owned values that others need
   void wait();   ///< returns when the ghosts of this rank hold their owners' values
-  Real wait_seconds() const { return wait_seconds_; }  ///< spent in wait() so far
-  std::size_t bytes_sent() const;                      ///< each start() sends this many
+  HaloTraffic traffic() const { return traffic_; }
+  std::size_t bytes_sent() const;  ///< each start() sends this many
 
  private:
   std::vector<std::vector<std::byte>> send_buffers_;
@@ -40,7 +50,7 @@ class HaloExchangeBytes {
   std::vector<MPI_Request> requests_;
   const std::byte* values_;
   std::size_t stride_;
-  Real wait_seconds_ = 0;
+  HaloTraffic traffic_;
 };
 
 /// Typed front of HaloExchangeBytes for an array of [total_cells] values (or, with `components`, of

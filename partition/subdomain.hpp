@@ -46,9 +46,11 @@ struct Subdomain {
   GlobalIndex global_cells = 0;  ///< over all ranks
   GlobalIndex global_points = 0;
 
-  std::vector<Vec3> points;                       ///< points of all local cells
-  std::vector<GlobalIndex> point_ids;             ///< [points] global ids
-  Index owned_points = 0;                         ///< the first this many points belong to owned cells
+  std::vector<Vec3> points;            ///< points of all local cells
+  std::vector<GlobalIndex> point_ids;  ///< [points] global ids
+  Index interior_points =
+      0;                   ///< the first this many points belong to interior cells: no ghost is around them
+  Index owned_points = 0;  ///< the first this many points belong to owned cells
   std::vector<std::array<Index, 4>> cell_points;  ///< [total_cells] local point ids, positive orientation
   std::vector<GlobalIndex> cell_ids;              ///< [total_cells] global ids (position in the mesh file)
   std::vector<Real> volume;                       ///< [total_cells] > 0

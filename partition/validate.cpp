@@ -47,8 +47,10 @@ void check_sizes(const Subdomain& d) {
   for (const Index size : {count(d.boundary_normal), count(d.boundary_center)})
     require(size == count(d.boundary_faces), "an array of boundary faces has {} entries, not {}", size,
             d.boundary_faces.size());
-  require(count(d.point_ids) == count(d.points) && d.owned_points <= count(d.points),
-          "{} points, {} owned, {} ids", d.points.size(), d.owned_points, d.point_ids.size());
+  require(count(d.point_ids) == count(d.points) && 0 <= d.interior_points &&
+              d.interior_points <= d.owned_points && d.owned_points <= count(d.points),
+          "{} points, {} interior, {} owned, {} ids", d.points.size(), d.interior_points, d.owned_points,
+          d.point_ids.size());
   require(0 <= d.cut_face_begin && d.cut_face_begin <= count(d.faces), "cut faces begin at {}",
           d.cut_face_begin);
   require(d.cell_faces.rows() == d.owned_cells && d.point_cells.rows() == d.owned_points,
@@ -92,6 +94,8 @@ void check_point_cells(const Subdomain& d) {
     require(std::is_sorted(cells.begin(), cells.end(), std::less_equal<>()),
             "cells around point {} do not ascend", point);
     require(!cells.empty() && cells.front() < d.owned_cells, "owned point {} is on no owned cell", point);
+    require(point >= d.interior_points || cells.back() < d.owned_cells, "interior point {} is on a ghost",
+            point);
     for (const Index cell : cells)
       require(0 <= cell && cell < d.total_cells && has(at(d.cell_points, cell), point),
               "cell {} is not around point {}", cell, point);

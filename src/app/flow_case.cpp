@@ -231,14 +231,21 @@ PerformanceResult FlowCase::performance() const {
   out.steady_wall_s = comm_.max(steady_wall_);
   out.steady_cpu_s = comm_.sum(steady_cpu_);
   out.iterations = iteration_.iterations();
-  out.core_us_per_cell_iteration =
-      1e6 * out.cpu_s / (cells * static_cast<Real>(std::max<GlobalIndex>(out.iterations, 1)));
+  const auto iterations = static_cast<Real>(std::max<GlobalIndex>(out.iterations, 1));
+  out.core_us_per_cell_iteration = 1e6 * out.cpu_s / (cells * iterations);
   out.bytes_per_cell = comm_.sum(static_cast<Real>(iteration_.bytes())) / cells;
   out.mesh_bytes_per_cell = setup_.memory.arrays / cells;
   out.reading_bytes_per_cell = setup_.memory.peak / cells;
   out.peak_bytes_per_cell = comm_.sum(peak_resident_bytes()) / cells;
   out.busiest_rank_bytes = comm_.max(peak_resident_bytes());
-  out.halo_fraction = comm_.max(iteration_.halo_seconds()) / out.wall_s;
+  const auto traffic = iteration_.halo_traffic();
+  const Real owned = setup_.domain.owned_cells,
+             ghosts = setup_.domain.total_cells - setup_.domain.owned_cells;
+  out.halo_fraction = comm_.max(traffic.wait_seconds) / out.wall_s;
+  out.halo_bytes_per_iteration = comm_.sum(static_cast<Real>(traffic.bytes)) / iterations;
+  out.most_messages_per_iteration = comm_.max(static_cast<Real>(traffic.messages)) / iterations;
+  out.ghost_fraction = comm_.sum(ghosts) / cells;
+  out.load_imbalance = comm_.max(owned) * comm_.size() / cells - 1;
   return out;
 }
 

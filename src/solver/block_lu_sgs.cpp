@@ -25,16 +25,15 @@ void BlockLuSgs::linearise(const FlowField<Real>& flow, const Conditions<Real>& 
 }
 
 template <int N>
-void BlockLuSgs::sweep(Direction direction) {
-  const Index cells = discretization_.domain().owned_cells;
+void BlockLuSgs::sweep(Direction direction, Index begin, Index end) {
   SweepState* update[N];
   const SweepState* right[N];
   for (std::size_t k = 0; k < N; ++k) {
     update[k] = systems_[k]->update.data();
     right[k] = systems_[k]->right.data();
   }
-  for (Index i = 0; i < cells; ++i) {
-    const Index row = direction == Direction::forward ? i : cells - 1 - i;
+  for (Index i = 0; i < end - begin; ++i) {
+    const Index row = direction == Direction::forward ? begin + i : end - 1 - i;
     const auto& columns = matrix_.columns(row);
     const auto& blocks = matrix_.blocks(row);
     for (std::size_t k = 0; k < N; ++k) {
@@ -50,8 +49,12 @@ void BlockLuSgs::sweep(Direction direction) {
 
 template <int N>
 void BlockLuSgs::solve_together(std::span<const LinearSystem> systems) {
-  const auto exchange = [&] {
+  const Index interior = discretization_.domain().interior_cells,
+              cells = discretization_.domain().owned_cells;
+  const auto start_exchange = [&] {
     for (std::size_t k = 0; k < N; ++k) systems_[k]->update.start_exchange();
+  };
+  const auto finish_exchange = [&] {
     for (std::size_t k = 0; k < N; ++k) systems_[k]->update.finish_exchange();
   };
   for (std::size_t k = 0; k < N; ++k) {
@@ -64,10 +67,14 @@ void BlockLuSgs::solve_together(std::span<const LinearSystem> systems) {
     }
   }
   for (int pass = 0; pass < sweeps_; ++pass) {
-    if (pass > 0) exchange();
-    sweep<N>(Direction::forward);
-    exchange();
-    sweep<N>(Direction::backward);
+    sweep<N>(Direction::forward, 0, interior);
+    if (pass > 0) finish_exchange();
+    sweep<N>(Direction::forward, interior, cells);
+    start_exchange();
+    finish_exchange();
+    sweep<N>(Direction::backward, interior, cells);
+    if (pass + 1 < sweeps_) start_exchange();
+    sweep<N>(Direction::backward, 0, interior);
   }
   for (std::size_t k = 0; k < N; ++k)
     for (std::size_t cell = 0; cell < systems_[k]->right.size(); ++cell)
@@ -94,9 +101,9 @@ std::size_t BlockLuSgs::bytes() const {
   return out;
 }
 
-Real BlockLuSgs::halo_seconds() const {
-  Real out = 0;
-  for (const auto& system : systems_) out += system->update.halo().wait_seconds();
+HaloTraffic BlockLuSgs::halo_traffic() const {
+  HaloTraffic out;
+  for (const auto& system : systems_) out = out + system->update.halo().traffic();
   return out;
 }
 

@@ -16,8 +16,9 @@ struct alignas(32) SweepState {
 
 /// Jacobian of the first-order flux, exact for the flux in use (forward differentiation), swept forward and
 /// backward. Across ranks the sweeps are hybrid: Gauss-Seidel within a rank, with halos renewed before every
-/// direction. Right-hand sides that are solved together share the reading of the matrix, which is what a
-/// sweep costs.
+/// direction. Rows next to ghosts come last in a forward pass and first in a backward one, so that the halo
+/// between a backward and the next forward pass travels while both work on the interior. Right-hand sides
+/// that are solved together share the reading of the matrix, which is what a sweep costs.
 class BlockLuSgs final : public LinearSolver {
  public:
   /// `sweeps`: pairs of a forward and a backward pass in each solve.
@@ -27,13 +28,13 @@ class BlockLuSgs final : public LinearSolver {
                  const TimeTerms& time) override;
   void solve(std::span<const LinearSystem> systems) override;
   std::size_t bytes() const override;
-  Real halo_seconds() const override;
+  HaloTraffic halo_traffic() const override;
 
  private:
   enum class Direction { forward, backward };
-  /// Relaxes every row once, for the first N right-hand sides.
+  /// Relaxes the rows [begin, end) once, for the first N right-hand sides.
   template <int N>
-  void sweep(Direction direction);
+  void sweep(Direction direction, Index begin, Index end);
   template <int N>
   void solve_together(std::span<const LinearSystem> systems);
 

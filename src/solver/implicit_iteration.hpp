@@ -58,10 +58,8 @@ class ImplicitIteration {
   void undo();
 
   GlobalIndex iterations() const { return iterations_; }
-  /// Seconds that this rank has waited for halos.
-  Real halo_seconds() const {
-    return flow_.halo().wait_seconds() + residual_.reconstruction().halo().wait_seconds() +
-           solver_->halo_seconds();
+  HaloTraffic halo_traffic() const {
+    return flow_.halo().traffic() + residual_.reconstruction().halo().traffic() + solver_->halo_traffic();
   }
   /// Bytes of this rank's arrays, mesh included.
   std::size_t bytes() const;

@@ -34,7 +34,7 @@ class LinearSolver {
   /// Communicates.
   virtual void solve(std::span<const LinearSystem> systems) = 0;
   virtual std::size_t bytes() const = 0;
-  virtual Real halo_seconds() const = 0;  ///< waited for halos so far
+  virtual HaloTraffic halo_traffic() const = 0;
 };
 
 }  // namespace alphadot

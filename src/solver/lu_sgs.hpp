@@ -20,7 +20,7 @@ class LuSgs final : public LinearSolver {
                  const TimeTerms& time) override;
   void solve(std::span<const LinearSystem> systems) override;
   std::size_t bytes() const override;
-  Real halo_seconds() const override { return update_.halo().wait_seconds(); }
+  HaloTraffic halo_traffic() const override { return update_.halo().traffic(); }
 
  private:
   void solve_one(const LinearSystem& system);

@@ -19,24 +19,33 @@ Reconstruction<T>::Reconstruction(const Discretization& discretization, const Co
                    : 0) {}
 
 template <class T>
-void Reconstruction<T>::update(const FlowField<T>& flow) {
-  gather_points(flow);
+void Reconstruction<T>::update(FlowField<T>& flow) {
+  const Subdomain& domain = discretization_.domain();
+  gather_points(flow, 0, domain.interior_points);
+  fit_cells(flow, 0, domain.interior_cells);
+  flow.finish_exchange();
+  gather_points(flow, domain.interior_points, domain.owned_points);
+  fit_cells(flow, domain.interior_cells, domain.owned_cells);
+}
+
+template <class T>
+void Reconstruction<T>::fit_cells(const FlowField<T>& flow, Index begin, Index end) {
   switch (discretization_.space().limiter) {
     case LimiterKind::venkatakrishnan:
-      return fit_cells<LimiterKind::venkatakrishnan>(flow);
+      return fit_limited<LimiterKind::venkatakrishnan>(flow, begin, end);
     case LimiterKind::mlp_u2:
-      return fit_cells<LimiterKind::mlp_u2>(flow);
+      return fit_limited<LimiterKind::mlp_u2>(flow, begin, end);
     case LimiterKind::barth_jespersen:
-      return fit_cells<LimiterKind::barth_jespersen>(flow);
+      return fit_limited<LimiterKind::barth_jespersen>(flow, begin, end);
     case LimiterKind::none:
-      return fit_cells<LimiterKind::none>(flow);
+      return fit_limited<LimiterKind::none>(flow, begin, end);
   }
 }
 
 template <class T>
-void Reconstruction<T>::gather_points(const FlowField<T>& flow) {
+void Reconstruction<T>::gather_points(const FlowField<T>& flow, Index begin, Index end) {
   const Subdomain& domain = discretization_.domain();
-  for (Index point = 0; point < domain.owned_points; ++point) {
+  for (Index point = begin; point < end; ++point) {
     const auto cells = domain.point_cells[point];
     const Vec3 x = domain.points[point];
     PointSums sums{};
@@ -208,10 +217,10 @@ Primitive<T> Reconstruction<T>::limiter_factors(Index cell, const Arms& arms, co
 
 template <class T>
 template <LimiterKind limiter>
-void Reconstruction<T>::fit_cells(const FlowField<T>& flow) {
+void Reconstruction<T>::fit_limited(const FlowField<T>& flow, Index begin, Index end) {
   const Subdomain& domain = discretization_.domain();
   const bool by_least_squares = discretization_.space().gradient == GradientKind::least_squares;
-  for (Index cell = 0; cell < domain.owned_cells; ++cell) {
+  for (Index cell = begin; cell < end; ++cell) {
     const Primitive<T>& w = flow[cell];
     Arms arms;
     for (std::size_t corner = 0; corner < 4; ++corner)

@@ -32,9 +32,10 @@ class Reconstruction {
  public:
   Reconstruction(const Discretization& discretization, const Communicator& comm);
 
-  /// Fills the gradients of owned cells from a flow whose ghosts are current. Two passes: moments and extrema
-  /// of the points, then gradient and limiter of the cells (about 450 flops a cell).
-  void update(const FlowField<T>& flow);
+  /// Fills the gradients of owned cells from a flow whose exchange has been started; finishes it while the
+  /// cells that need no ghost are worked on. Two passes: moments and extrema of the points, then gradient and
+  /// limiter of the cells.
+  void update(FlowField<T>& flow);
   /// From now on the limiter's factors stay what they were in the latest update (or are free again).
   void freeze_limiter(bool frozen) { frozen_ = frozen; }
   bool limiter_is_frozen() const { return frozen_; }
@@ -58,9 +59,10 @@ class Reconstruction {
   /// Vectors from the corners of a cell to its centroid.
   using Arms = std::array<Vec3, 4>;
 
-  void gather_points(const FlowField<T>& flow);
+  void gather_points(const FlowField<T>& flow, Index begin, Index end);
+  void fit_cells(const FlowField<T>& flow, Index begin, Index end);
   template <LimiterKind limiter>
-  void fit_cells(const FlowField<T>& flow);
+  void fit_limited(const FlowField<T>& flow, Index begin, Index end);
   Gradient<T> least_squares(Index cell, const Arms& arms, const Primitive<T>& w) const;
   Gradient<T> green_gauss(Index cell) const;
   template <LimiterKind limiter>

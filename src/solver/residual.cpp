@@ -21,7 +21,7 @@ void Residual<T>::evaluate(FlowField<T>& flow, const Conditions<T>& conditions, 
   const auto cut_end = static_cast<Index>(domain.faces.size());
   fallback_faces_ = 0;
   std::fill(residual.begin(), residual.end(), Conserved<T>{});
-  flow.exchange();
+  flow.start_exchange();
   if (order > 1) {
     reconstruction_.update(flow);
     reconstruction_.start_exchange();
@@ -29,7 +29,10 @@ void Residual<T>::evaluate(FlowField<T>& flow, const Conditions<T>& conditions, 
   interior_faces(flow, conditions, order, 0, domain.cut_face_begin, residual);
   boundary_faces(flow, conditions, order, residual);
   rotating_axes(flow, conditions, residual);
-  if (order > 1) reconstruction_.finish_exchange();
+  if (order > 1)
+    reconstruction_.finish_exchange();
+  else
+    flow.finish_exchange();
   interior_faces(flow, conditions, order, domain.cut_face_begin, cut_end, residual);
 }
 

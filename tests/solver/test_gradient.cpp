@@ -33,7 +33,7 @@ struct Gradients {
   template <class State>
   void reconstruct(State&& state) {
     fill(flow, box.domain, state);
-    flow.exchange();
+    flow.start_exchange();
     reconstruction.update(flow);
     reconstruction.start_exchange();
     reconstruction.finish_exchange();
