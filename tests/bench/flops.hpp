@@ -1,0 +1,16 @@
+// Flops of the residual, counted by its own source.
+#pragma once
+
+#include "bench/counted.hpp"
+#include "solver/conditions.hpp"
+#include "solver/discretization.hpp"
+#include "solver/flow_field.hpp"
+
+namespace alphadot {
+
+/// Operations on flow variables in one second-order evaluation on this rank. Geometry (normals, arms: about
+/// 60 operations a cell) is not among them.
+Operations residual_operations(const Discretization& discretization, const Communicator& comm,
+                               const FlowField<Real>& flow, const Conditions<Real>& conditions);
+
+}  // namespace alphadot

@@ -1,0 +1,209 @@
+// Times the solver's kernels on a case and sets them against what the machine can do. Prints JSON.
+//
+//   mpirun -n RANKS alphadot_bench CASE [KEY=VALUE ...]
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <fstream>
+#include <functional>
+#include <iterator>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "bench/flops.hpp"
+#include "bench/machine.hpp"
+#include "core/error.hpp"
+#include "core/timer.hpp"
+#include "io/case_file.hpp"
+#include "io/mesh_reader.hpp"
+#include "io/partitioned_mesh.hpp"
+#include "solver/block_lu_sgs.hpp"
+#include "solver/implicit_iteration.hpp"
+#include "solver/tangent.hpp"
+
+namespace alphadot {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Case read_case(int argc, char** argv) {
+  if (argc < 2) throw InputError("", 0, "no case", "alphadot_bench CASE [KEY=VALUE ...]");
+  std::ifstream in(argv[1], std::ios::binary);
+  if (!in) throw InputError(argv[1], 0, "cannot be opened");
+  return parse_case(std::string(std::istreambuf_iterator<char>(in), {}), argv[1],
+                    std::vector<std::string>(argv + 2, argv + argc));
+}
+
+Subdomain read_domain(const Case& settings, const Communicator& comm) {
+  if (is_hdf5(settings.mesh.file))
+    return distribute(read_partitioned_mesh(settings.mesh.file, comm), comm, settings.mesh.scale);
+  Mesh mesh;
+  comm.on_root([&] { mesh = read_mesh(settings.mesh.file); });
+  return distribute(mesh, comm, settings.mesh.scale);
+}
+
+std::vector<BoundaryKind> kinds_of(const Case& settings, const Subdomain& domain) {
+  std::vector<BoundaryKind> out;
+  for (const auto& name : domain.patch_names) out.push_back(settings.boundary.at(name));
+  return out;
+}
+
+/// Bytes that a second-order residual must move at least when every array passes through the caches once a
+/// loop: T = Real, or a dual number of `scalar` bytes.
+Real residual_bytes(const Subdomain& d, Real scalar) {
+  const Real cells = d.owned_cells, all = d.total_cells, points = d.owned_points,
+             faces = static_cast<Real>(d.faces.size()), uses = static_cast<Real>(d.point_cells.items.size());
+  const Real state = 5 * scalar, gradient = 15 * scalar, sums = 30 * scalar;
+  const Real cleared = cells * state;
+  const Real gathered = points * (4 + 24 + sums) + 4 * uses + all * (state + 24);
+  const Real fitted = cells * (16 + 24 + 48 + 8 + state + gradient) + points * (24 + 56 + sums);
+  const Real fluxes = faces * (8 + 24 + 24) + all * (24 + state + gradient) + 2 * cells * state;
+  return cleared + gathered + fitted + fluxes;
+}
+
+/// Of one pass over the rows of the block matrix.
+Real sweep_bytes(const Subdomain& d) {
+  const Real cells = d.owned_cells, sides = static_cast<Real>(d.cell_faces.items.size());
+  return cells * (100 + 4 + 40 + 2 * 32) + sides * (100 + 4);
+}
+Real sweep_flops(const Subdomain& d) {
+  const Real cells = d.owned_cells, sides = static_cast<Real>(d.cell_faces.items.size());
+  return 50 * (cells + sides) + 10 * cells;
+}
+
+class Bench {
+ public:
+  Bench(const Case& settings, const Communicator& comm)
+      : settings_(settings),
+        comm_(comm),
+        domain_(read_domain(settings, comm)),
+        discretization_(domain_, kinds_of(settings, domain_), settings.space, settings.freestream.gamma),
+        iteration_(discretization_, comm,
+                   std::make_unique<BlockLuSgs>(discretization_, comm, settings.steady.sweeps),
+                   settings.reference.moment_center) {
+    const Real a = settings.freestream.alpha * radians_per_degree;
+    const Vec3 wind = settings.freestream.mach * Vec3{std::cos(a), 0, std::sin(a)};
+    conditions_ = steady_conditions(wind, {}, settings.freestream.gamma);
+    iteration_.set_uniform(conditions_.free_stream);
+    for (int i = 0; i < 6; ++i) {  // a flow with a shock, no more
+      iteration_.evaluate(conditions_, 2);
+      iteration_.linearise(conditions_, {.cfl = 20});
+      iteration_.advance();
+    }
+  }
+
+  Json results() {
+    bandwidth_ = triad_bandwidth(comm_);
+    peak_ = peak_flops(comm_);
+    const auto message = message_cost(comm_);
+    const auto operations = residual_operations(discretization_, comm_, iteration_.flow(), conditions_);
+    Json kernels = Json::array();
+    kernels.push_back(residual(operations));
+    kernels.push_back(sweep());
+    kernels.push_back(tangent<1>(operations));
+    kernels.push_back(tangent<3>(operations));
+    const Real cells = static_cast<Real>(domain_.global_cells);
+    return {
+        {"ranks", comm_.size()},
+        {"cells", domain_.global_cells},
+        {"ghost_fraction", comm_.sum(static_cast<Real>(domain_.total_cells - domain_.owned_cells)) / cells},
+        {"triad_bytes_per_s", comm_.sum(bandwidth_)},
+        {"peak_flops", comm_.sum(peak_)},
+        {"latency_s", message.latency},
+        {"message_bytes_per_s", message.bandwidth},
+        {"reduction_s", reduction_seconds(comm_)},
+        {"kernels", kernels}};
+  }
+
+ private:
+  /// Seconds of processor that the fastest run took, on the rank where it took most, waiting for halos
+  /// included.
+  Real seconds(int repeats, const std::function<void()>& work) const {
+    work();
+    Real best = 1e300;
+    for (int repeat = 0; repeat < repeats; ++repeat) {
+      comm_.barrier();
+      const Timer time;
+      work();
+      best = std::min(best, comm_.max(time.cpu()));
+    }
+    return best;
+  }
+
+  Json kernel(const std::string& name, Real time, Real bytes, Real flops) const {
+    const Real cells = static_cast<Real>(domain_.global_cells), ranks = comm_.size();
+    const Real by_bytes = bytes / bandwidth_, by_flops = flops / peak_;
+    const Real per_cell = 1e9 * ranks / cells;  // ns of a core a cell
+    return {{"name", name},
+            {"bytes_per_cell", comm_.sum(bytes) / cells},
+            {"flops_per_cell", comm_.sum(flops) / cells},
+            {"core_ns_per_cell", per_cell * time},
+            {"bandwidth_limit_ns", per_cell * comm_.max(by_bytes)},
+            {"flop_limit_ns", per_cell * comm_.max(by_flops)},
+            {"times_bandwidth_limit", time / comm_.max(by_bytes)}};
+  }
+
+  Json residual(const Operations& operations) {
+    const Real time = seconds(20, [&] { iteration_.evaluate(conditions_, 2); });
+    return kernel("residual", time, residual_bytes(domain_, 8), static_cast<Real>(operations.flops()));
+  }
+
+  Json sweep() {
+    std::vector<Primitive<Real>> update(static_cast<std::size_t>(domain_.owned_cells));
+    const Real passes = 2 * settings_.steady.sweeps;
+    const Real time =
+        seconds(10, [&] { iteration_.linear_solver().solve(iteration_.residual_values(), update); }) / passes;
+    return kernel("sweep", time, sweep_bytes(domain_), sweep_flops(domain_));
+  }
+
+  template <int N>
+  Json tangent(const Operations& operations) {
+    const auto cells = static_cast<std::size_t>(domain_.owned_cells);
+    std::array<std::vector<Primitive<Real>>, N> fields;
+    std::array<std::vector<Conserved<Real>>, N> images;
+    typename Tangent<N>::Fields in;
+    typename Tangent<N>::Images out;
+    for (std::size_t k = 0; k < N; ++k) {
+      fields[k].resize(cells);
+      images[k].resize(cells);
+      in[k] = fields[k];
+      out[k] = images[k];
+    }
+    Tangent<N> tangent(discretization_, comm_, iteration_.flow(), conditions_, {});
+    const Real time = seconds(10, [&] { tangent.apply(in, {}, out); });
+    const Real scalar = 8 * (1 + N);
+    const Real copies = static_cast<Real>(cells) * (2 * N * 40 + 3 * 5 * scalar);
+    return kernel(fmt::format("tangent of {}", N), time, residual_bytes(domain_, scalar) + copies,
+                  static_cast<Real>(operations.flops_of_duals(N)));
+  }
+
+  Case settings_;
+  const Communicator& comm_;
+  Subdomain domain_;
+  Discretization discretization_;
+  ImplicitIteration iteration_;
+  Conditions<Real> conditions_;
+  Real bandwidth_ = 0, peak_ = 0;
+};
+
+}  // namespace
+}  // namespace alphadot
+
+int main(int argc, char** argv) {
+  using namespace alphadot;
+  const MpiSession mpi(argc, argv);
+  const Communicator comm;
+  try {
+    Case settings;
+    comm.on_all([&] { settings = read_case(argc, argv); });
+    const auto results = Bench(settings, comm).results();
+    if (comm.is_root()) std::puts(results.dump(2).c_str());
+    return 0;
+  } catch (const InputError& error) {
+    if (comm.is_root()) fmt::print(stderr, "alphadot_bench: error: {}\n", error.what());
+    return 1;
+  }
+}
