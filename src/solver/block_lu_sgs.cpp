@@ -8,7 +8,8 @@ namespace alphadot {
 
 namespace {
 constexpr std::size_t most_together = 4;  // right-hand sides whose sums stay in registers
-}
+constexpr Index rows_ahead = 6;           // of a sweep, that the memory is asked for
+}  // namespace
 
 BlockLuSgs::System::System(const Subdomain& domain, const Communicator& comm)
     : right(static_cast<std::size_t>(domain.owned_cells)), update(domain, comm, HaloWidth::faces) {}
@@ -34,6 +35,7 @@ void BlockLuSgs::sweep(Direction direction, Index begin, Index end) {
   }
   for (Index i = 0; i < end - begin; ++i) {
     const Index row = direction == Direction::forward ? begin + i : end - 1 - i;
+    matrix_.prefetch(direction == Direction::forward ? row + rows_ahead : row - rows_ahead);
     const auto& columns = matrix_.columns(row);
     const auto& blocks = matrix_.blocks(row);
     for (std::size_t k = 0; k < N; ++k) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "partition/subdomain.hpp"
+#include "solver/prefetch.hpp"
 
 namespace alphadot {
 
@@ -44,6 +45,12 @@ class BlockMatrix {
   const Columns& columns(Index row) const { return columns_[static_cast<std::size_t>(row)]; }
   const Blocks& blocks(Index row) const { return blocks_[static_cast<std::size_t>(row)]; }
   const Block& inverse_diagonal(Index row) const { return inverse_diagonal_[static_cast<std::size_t>(row)]; }
+
+  /// Asks the memory for a row, some rows before it is needed; rows that are not there are passed over.
+  void prefetch(Index row) const {
+    if (row < 0 || row >= static_cast<Index>(columns_.size())) return;
+    alphadot::prefetch(blocks(row));
+  }
 
   /// Multiplies the neighbours' blocks of every row by its inverse diagonal block, so that a relaxation of
   /// the row needs no further product.

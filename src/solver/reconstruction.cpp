@@ -6,8 +6,13 @@
 
 #include "core/dual.hpp"
 #include "solver/limiter.hpp"
+#include "solver/prefetch.hpp"
 
 namespace alphadot {
+
+namespace {
+constexpr Index points_ahead = 4, cells_ahead = 8;  // that the memory is asked for
+}
 
 template <class T>
 Reconstruction<T>::Reconstruction(const Discretization& discretization, const Communicator& comm)
@@ -46,6 +51,11 @@ template <class T>
 void Reconstruction<T>::gather_points(const FlowField<T>& flow, Index begin, Index end) {
   const Subdomain& domain = discretization_.domain();
   for (Index point = begin; point < end; ++point) {
+    if (const Index ahead = point + points_ahead; ahead < end)
+      for (const Index cell : domain.point_cells[ahead]) {
+        prefetch(flow[cell]);
+        prefetch(domain.center[cell]);
+      }
     const auto cells = domain.point_cells[point];
     const Vec3 x = domain.points[point];
     PointSums sums{};
@@ -156,8 +166,8 @@ Primitive<T> Reconstruction<T>::limiter_factors(Index cell, const Arms& arms, co
   const auto& corners = domain.cell_points[cell];
   // (K h)^3 with h^3 = 6 V (a cube's corner); scales of density, speed and pressure: 1, 1 and 1/gamma.
   const Real gamma = discretization_.gamma();
-  const Real k_limit = discretization_.space().limiter_k;
-  const Real epsilon2 = k_limit * k_limit * k_limit * 6 * domain.volume[cell];
+  const Real k = discretization_.space().limiter_k;
+  const Real epsilon2 = k * k * k * 6 * domain.volume[cell];
   const Real scaled[5] = {epsilon2, epsilon2, epsilon2, epsilon2, epsilon2 / (gamma * gamma)};
   // MLP looks at each corner and its own extrema; the others at the face opposite, a third of the arm beyond
   // the centroid, and the extrema of all corners.
@@ -221,6 +231,8 @@ void Reconstruction<T>::fit_limited(const FlowField<T>& flow, Index begin, Index
   const Subdomain& domain = discretization_.domain();
   const bool by_least_squares = discretization_.space().gradient == GradientKind::least_squares;
   for (Index cell = begin; cell < end; ++cell) {
+    if (const Index ahead = cell + cells_ahead; ahead < end)
+      for (const Index point : domain.cell_points[ahead]) prefetch(points_[point]);
     const Primitive<T>& w = flow[cell];
     Arms arms;
     for (std::size_t corner = 0; corner < 4; ++corner)

@@ -1,10 +1,12 @@
 #include "solver/residual.hpp"
 
 #include <algorithm>
+#include <array>
 #include <type_traits>
 
 #include "core/dual.hpp"
 #include "euler/boundary.hpp"
+#include "solver/prefetch.hpp"
 
 namespace alphadot {
 
@@ -55,30 +57,113 @@ Primitive<T> Residual<T>::face_state(const FlowField<T>& flow, Index cell, const
   return trusted(state, flow[cell]) ? state : flow[cell];
 }
 
+namespace {
+
+constexpr Index faces_ahead = 24;  // that the memory is asked for
+
+/// Faces whose fluxes are computed together, one to a lane of the vector registers. Dual numbers come alone.
+template <class T>
+struct FaceBatch {
+  static constexpr int lanes = std::is_same_v<T, Real> ? 8 : 1;
+  using Lanes = std::array<T, lanes>;
+
+  std::array<Lanes, 5> left, right, flux;
+  std::array<std::array<Real, lanes>, 3> normal;
+  std::array<Real, lanes> area;
+  Lanes speed;
+
+  void set_states(int lane, const Primitive<T>& l, const Primitive<T>& r) {
+    for (std::size_t i = 0; i < 5; ++i) {
+      left[i][static_cast<std::size_t>(lane)] = l[static_cast<int>(i)];
+      right[i][static_cast<std::size_t>(lane)] = r[static_cast<int>(i)];
+    }
+  }
+  void set_face(int lane, const Vec3& unit, Real face_area, const T& face_speed) {
+    for (std::size_t i = 0; i < 3; ++i) normal[i][static_cast<std::size_t>(lane)] = unit[static_cast<int>(i)];
+    area[static_cast<std::size_t>(lane)] = face_area;
+    speed[static_cast<std::size_t>(lane)] = face_speed;
+  }
+  Conserved<T> flux_of(int lane) const {
+    Conserved<T> out;
+    for (int i = 0; i < 5; ++i) out[i] = flux[static_cast<std::size_t>(i)][static_cast<std::size_t>(lane)];
+    return out;
+  }
+
+  /// flux = area * flux_function(left, right, normal, speed), for the compiler to vectorise.
+  template <class FluxFunction>
+  void evaluate(const FluxFunction& flux_function) {
+    for (std::size_t lane = 0; lane < lanes; ++lane) {
+      const Primitive<T> l{{left[0][lane], left[1][lane], left[2][lane], left[3][lane], left[4][lane]}};
+      const Primitive<T> r{{right[0][lane], right[1][lane], right[2][lane], right[3][lane], right[4][lane]}};
+      const Vec3 unit{normal[0][lane], normal[1][lane], normal[2][lane]};
+      const Conserved<T> f = flux_function(l, r, unit, speed[lane]);
+      for (int i = 0; i < 5; ++i) flux[static_cast<std::size_t>(i)][lane] = area[lane] * f[i];
+    }
+  }
+
+  void evaluate(const FluxModel& model) {
+    switch (model.kind) {
+      case FluxKind::roe:
+        return evaluate([&](const auto& l, const auto& r, const Vec3& n, const T& s) {
+          return roe_flux(l, r, n, s, model.gamma, model.entropy_fix);
+        });
+      case FluxKind::van_leer:
+        return evaluate([&](const auto& l, const auto& r, const Vec3& n, const T& s) {
+          return van_leer_flux(l, r, n, s, model.gamma);
+        });
+      case FluxKind::hllc:
+        return evaluate([&](const auto& l, const auto& r, const Vec3& n, const T& s) {
+          return hllc_flux(l, r, n, s, model.gamma);
+        });
+    }
+  }
+};
+
+}  // namespace
+
 template <class T>
 void Residual<T>::interior_faces(const FlowField<T>& flow, const Conditions<T>& conditions, int order,
                                  Index begin, Index end, std::span<Conserved<T>> residual) {
   const Subdomain& domain = discretization_.domain();
-  for (Index face = begin; face < end; ++face) {
-    const auto [left, right] = domain.faces[face];
-    const Real area = norm(domain.face_normal[face]);
-    const Vec3 normal = (1 / area) * domain.face_normal[face];
-    const Vec3 center = domain.face_center[face];
-    Primitive<T> wl = flow[left], wr = flow[right];
-    if (order > 1) {
-      const auto l = extrapolated(wl, reconstruction_[left], center - domain.center[left]);
-      const auto r = extrapolated(wr, reconstruction_[right], center - domain.center[right]);
-      if (trusted(l, wl) && trusted(r, wr)) {
-        wl = l;
-        wr = r;
-      } else {
-        ++fallback_faces_;
-      }
+  FaceBatch<T> batch;
+  for (Index first = begin; first < end; first += batch.lanes) {
+    const int count = std::min<Index>(batch.lanes, end - first);
+    // Left cells come in their order, right ones from anywhere.
+    for (Index ahead = first + faces_ahead; ahead < std::min(first + faces_ahead + batch.lanes, end);
+         ++ahead) {
+      const Index right = domain.faces[ahead].right;
+      prefetch(flow[right]);
+      prefetch(domain.center[right]);
+      if (order > 1) prefetch(reconstruction_[right]);
+      if (right < domain.owned_cells) prefetch(residual[right]);
     }
-    const T speed = conditions.face_speed(face, center, normal);
-    const auto flux = area * numerical_flux(discretization_.flux(), wl, wr, normal, speed);
-    residual[left] += flux;
-    if (right < domain.owned_cells) residual[right] -= flux;
+    for (int lane = 0; lane < batch.lanes; ++lane) {
+      const Index face = first + std::min(lane, count - 1);  // lanes that are left over repeat the last face
+      const auto [left, right] = domain.faces[face];
+      const Real area = norm(domain.face_normal[face]);
+      const Vec3 normal = (1 / area) * domain.face_normal[face];
+      const Vec3 center = domain.face_center[face];
+      Primitive<T> wl = flow[left], wr = flow[right];
+      if (order > 1) {
+        const auto l = extrapolated(wl, reconstruction_[left], center - domain.center[left]);
+        const auto r = extrapolated(wr, reconstruction_[right], center - domain.center[right]);
+        if (trusted(l, wl) && trusted(r, wr)) {
+          wl = l;
+          wr = r;
+        } else if (lane < count) {
+          ++fallback_faces_;
+        }
+      }
+      batch.set_states(lane, wl, wr);
+      batch.set_face(lane, normal, area, conditions.face_speed(face, center, normal));
+    }
+    batch.evaluate(discretization_.flux());
+    for (int lane = 0; lane < count; ++lane) {
+      const auto [left, right] = domain.faces[first + lane];
+      const auto flux = batch.flux_of(lane);
+      residual[left] += flux;
+      if (right < domain.owned_cells) residual[right] -= flux;
+    }
   }
 }
 
