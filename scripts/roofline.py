@@ -31,7 +31,7 @@ Measured = dict[str, Any]
 def bench(program: Path, case: Path, mesh: Path, ranks: int) -> Measured:
     """What the bench program prints."""
     launcher = ["mpirun", "-n", str(ranks)] if ranks > 1 else []
-    command = [*launcher, str(program), str(case), f"mesh.file={mesh.resolve()}"]
+    command = [*launcher, str(program.resolve()), str(case), f"mesh.file={mesh.resolve()}"]
     done = subprocess.run(command, capture_output=True, text=True)
     if done.returncode != 0:
         sys.exit(f"roofline.py: {' '.join(command)} failed:\n{done.stderr}")
@@ -64,7 +64,7 @@ def picture(run: Measured, stem: Path) -> None:
     bandwidth, peak = run["triad_bytes_per_s"], run["peak_flops"]
     intensities = [10 ** (-1.5 + 0.05 * i) for i in range(65)]
     axes.loglog(intensities, [min(peak, bandwidth * x) / 1e9 for x in intensities], color="#202020", label="triad and peak")
-    for k, color in zip(run["kernels"], ("#1f5fa8", "#c0392b", "#2e8b57", "#7b3294")):
+    for k, color in zip(run["kernels"], ("#1f5fa8", "#c0392b", "#e08214", "#2e8b57", "#7b3294")):
         rate = run["ranks"] * k["flops_per_cell"] / k["core_ns_per_cell"]
         axes.loglog(k["flops_per_cell"] / k["bytes_per_cell"], rate, "o", color=color, label=k["name"])
     axes.set(xlabel="flops a byte", ylabel="Gflop/s", title=f"{run['ranks']} ranks, {run['cells']} cells")

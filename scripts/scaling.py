@@ -117,7 +117,7 @@ def run(arguments: argparse.Namespace, mesh: Path, ranks: int) -> Run:
     settings = [f"mesh.file={mesh.resolve()}", f"steady.orders={arguments.orders}", "output.flow=false", "output.surface=false"]
     overrides = [part for setting in [*settings, *arguments.set] for part in ("--set", setting)]
     launcher = ["mpirun", "-n", str(ranks)] if ranks > 1 else []
-    command = [*launcher, str(arguments.program), "run", str(arguments.case), "--out", str(folder), "--quiet", *overrides]
+    command = [*launcher, str(arguments.program.resolve()), "run", str(arguments.case), "--out", str(folder), "--quiet", *overrides]
     environment = {**os.environ, "OMPI_MCA_rmaps_base_oversubscribe": "1"}
     done = subprocess.run(command, capture_output=True, text=True, env=environment)
     if done.returncode != 0:
@@ -155,7 +155,7 @@ def own_network(arguments: argparse.Namespace, mesh: Path) -> Network | None:
     """This machine's messages, when the bench program is there."""
     if not arguments.bench.exists():
         return None
-    command = ["mpirun", "-n", "2", str(arguments.bench), str(arguments.case), f"mesh.file={mesh.resolve()}"]
+    command = ["mpirun", "-n", "2", str(arguments.bench.resolve()), str(arguments.case), f"mesh.file={mesh.resolve()}"]
     done = subprocess.run(command, capture_output=True, text=True)
     if done.returncode != 0:
         sys.exit(f"scaling.py: {' '.join(command)} failed:\n{done.stderr}")

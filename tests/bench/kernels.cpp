@@ -64,14 +64,16 @@ Real residual_bytes(const Subdomain& d, Real scalar) {
   return cleared + gathered + fitted + fluxes;
 }
 
-/// Of one pass over the rows of the block matrix.
-Real sweep_bytes(const Subdomain& d) {
-  const Real cells = d.owned_cells, sides = static_cast<Real>(d.cell_faces.items.size());
-  return cells * (100 + 4 + 40 + 2 * 32) + sides * (100 + 4);
+/// Of one pass over the rows of the block matrix for `systems` right-hand sides, with its share of what comes
+/// before and after `passes` of them.
+Real sweep_bytes(const Subdomain& d, int systems, Real passes) {
+  constexpr Real matrix = 4 * 100 + 16, state = 32, inverse = 100, in = 40, out = 40;
+  const Real before_and_after = inverse + in + 3 * state + out;
+  return d.owned_cells * (matrix + systems * (3 * state + before_and_after / passes));
 }
-Real sweep_flops(const Subdomain& d) {
-  const Real cells = d.owned_cells, sides = static_cast<Real>(d.cell_faces.items.size());
-  return 50 * (cells + sides) + 10 * cells;
+Real sweep_flops(const Subdomain& d, int systems, Real passes) {
+  constexpr Real product = 50;
+  return d.owned_cells * systems * (4 * product + 20 + product / passes);
 }
 
 class Bench {
@@ -102,7 +104,8 @@ class Bench {
     const auto operations = residual_operations(discretization_, comm_, iteration_.flow(), conditions_);
     Json kernels = Json::array();
     kernels.push_back(residual(operations));
-    kernels.push_back(sweep());
+    kernels.push_back(sweep(1));
+    kernels.push_back(sweep(3));
     kernels.push_back(tangent<1>(operations));
     kernels.push_back(tangent<3>(operations));
     const Real cells = static_cast<Real>(domain_.global_cells);
@@ -151,12 +154,16 @@ class Bench {
     return kernel("residual", time, residual_bytes(domain_, 8), static_cast<Real>(operations.flops()));
   }
 
-  Json sweep() {
-    std::vector<Primitive<Real>> update(static_cast<std::size_t>(domain_.owned_cells));
+  Json sweep(int count) {
+    std::vector<std::vector<Primitive<Real>>> updates(
+        static_cast<std::size_t>(count),
+        std::vector<Primitive<Real>>(static_cast<std::size_t>(domain_.owned_cells)));
+    std::vector<LinearSystem> systems;
+    for (auto& update : updates) systems.push_back({iteration_.residual_values(), update});
     const Real passes = 2 * settings_.steady.sweeps;
-    const Real time =
-        seconds(10, [&] { iteration_.linear_solver().solve(iteration_.residual_values(), update); }) / passes;
-    return kernel("sweep", time, sweep_bytes(domain_), sweep_flops(domain_));
+    const Real time = seconds(10, [&] { iteration_.linear_solver().solve(systems); }) / passes;
+    return kernel(count == 1 ? "sweep" : fmt::format("sweep of {}", count), time,
+                  sweep_bytes(domain_, count, passes), sweep_flops(domain_, count, passes));
   }
 
   template <int N>
