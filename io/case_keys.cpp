@@ -147,7 +147,9 @@ std::vector<CaseKey> make_keys() {
            "decades that the preconditioned linear residual must drop")
       .key("directions", &DerivativeSettings::directions, IntegerValue{.from = 2, .to = 1000},
            "of the Krylov space of GMRES before it begins anew; 40 bytes a cell each")
-      .key("max_iterations", &DerivativeSettings::max_iterations, count, "limit of linear iterations");
+      .key("max_iterations", &DerivativeSettings::max_iterations, count, "limit of linear iterations")
+      .key("second_order", &DerivativeSettings::second_order, FlagValue{},
+           "also by the second time derivatives of alpha and beta, and where quasi-steady flight ends");
 
   Table(keys, "output", &Case::output)
       .key("folder", &OutputSettings::folder, TextValue{}, "folder of the run")

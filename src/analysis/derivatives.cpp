@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 
 #include "core/error.hpp"
@@ -10,8 +11,9 @@
 namespace alphadot {
 
 std::string_view name(Variable variable) {
-  constexpr std::array<std::string_view, 9> names = {
-      "alpha", "beta", "p", "q", "r", "alphadot", "betadot", "q_plus_alphadot", "r_minus_betadot"};
+  constexpr std::array<std::string_view, 11> names = {
+      "alpha",           "beta",           "p", "q", "r", "alphadot", "betadot", "alphaddot", "betaddot",
+      "q_plus_alphadot", "r_minus_betadot"};
   return names[static_cast<std::size_t>(variable)];
 }
 
@@ -45,6 +47,10 @@ DerivativeSet moment_transfer(const DerivativeSet& about_old, Real dx) {
     values = moment_transfer(values, Vec3{dx, 0, 0});
   }
   return moved;
+}
+
+Real quasi_steady_limit(Real by_angle, Real by_second_rate, Real share) {
+  return std::sqrt(share * std::abs(by_angle / by_second_rate));
 }
 
 void add_damping_by_subtraction(DerivativeSet& derivatives) {

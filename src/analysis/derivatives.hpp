@@ -10,9 +10,22 @@
 
 namespace alphadot {
 
-/// What a coefficient is differentiated by: angles in rad, rates times l/2V. The last two are what forced
-/// pitch and forced yaw about a fixed axis yield: X_q + X_alphadot and X_r - X_betadot (r = -betadot there).
-enum class Variable { alpha, beta, p, q, r, alphadot, betadot, q_plus_alphadot, r_minus_betadot };
+/// What a coefficient is differentiated by: angles in rad, rates times l/2V, second rates (alphaddot) times
+/// (l/2V)^2. The last two are what forced pitch and forced yaw about a fixed axis yield: X_q + X_alphadot and
+/// X_r - X_betadot (r = -betadot there).
+enum class Variable {
+  alpha,
+  beta,
+  p,
+  q,
+  r,
+  alphadot,
+  betadot,
+  alphaddot,
+  betaddot,
+  q_plus_alphadot,
+  r_minus_betadot
+};
 
 /// "alpha", "q_plus_alphadot", ...
 std::string_view name(Variable variable);
@@ -35,6 +48,10 @@ using DerivativeSet = DerivativeSetOf<Estimate>;
 /// First order in alpha: the translation is normal to the body axis, so that 1 - cos(alpha) is neglected.
 /// Throws InputError when a pitch (yaw) rate is in the set without alpha (beta).
 DerivativeSet moment_transfer(const DerivativeSet& about_old, Real dx);
+
+/// Reduced frequency at which the second-order term of X = (X_alpha + i k X_alphadot - k^2 X_alphaddot) alpha
+/// reaches `share` of the first: there the derivatives for k -> 0 end to describe a plunge.
+Real quasi_steady_limit(Real by_angle, Real by_second_rate, Real share);
 
 /// Adds X_q = (X_q + X_alphadot) - X_alphadot, the paper's way to the damping derivative. All about one
 /// centre. Throws InputError when either column is missing.

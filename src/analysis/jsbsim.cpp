@@ -24,7 +24,8 @@ std::string reduced(std::string_view rate) {
   return property(rate) + property("aero/ci2vel");
 }
 
-/// The factors by which a derivative is multiplied in JSBSim's properties; empty for the combined ones.
+/// The factors by which a derivative is multiplied in JSBSim's properties; empty for those that it has no
+/// property for.
 std::string factors_of(Variable variable, const FreestreamSettings& stream) {
   switch (variable) {
     case Variable::alpha:
@@ -41,6 +42,8 @@ std::string factors_of(Variable variable, const FreestreamSettings& stream) {
       return reduced("aero/alphadot-rad_sec");
     case Variable::betadot:
       return reduced("aero/betadot-rad_sec");
+    case Variable::alphaddot:
+    case Variable::betaddot:
     case Variable::q_plus_alphadot:
     case Variable::r_minus_betadot:
       break;

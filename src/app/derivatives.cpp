@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "analysis/avl.hpp"
+#include "analysis/axes.hpp"
 #include "analysis/derivatives.hpp"
 #include "analysis/jsbsim.hpp"
 #include "analysis/moment_center.hpp"
@@ -49,8 +50,11 @@ ConditionsChange change_of(Variable variable, const FreestreamSettings& stream) 
   }
 }
 
-bool is_rate(Variable variable) {
-  return variable != Variable::alpha && variable != Variable::beta;
+/// The power of time in a variable's unit.
+int time_derivatives(Variable variable) {
+  using enum Variable;
+  if (variable == alpha || variable == beta) return 0;
+  return variable == alphaddot || variable == betaddot ? 2 : 1;
 }
 
 /// The problem of one variable. Those of the rates of the angles need the responses to the angles.
@@ -58,20 +62,28 @@ SensitivityProblem problem_of(Variable variable, const FlowCase& flow, const Res
   SensitivityProblem out{std::string(name(variable)), change_of(variable, flow.settings().freestream), {}};
   if (variable == Variable::alphadot) out.rate = responses.at(Variable::alpha).field;
   if (variable == Variable::betadot) out.rate = responses.at(Variable::beta).field;
+  if (variable == Variable::alphaddot) out.rate = responses.at(Variable::alphadot).field;
+  if (variable == Variable::betaddot) out.rate = responses.at(Variable::betadot).field;
   return out;
 }
 
-/// Variables that are solved for together, in this order: angles and rotations, then the rates of the angles.
-std::vector<std::vector<Variable>> groups_of(bool half_model) {
+/// Variables that are solved for together, in this order: angles and rotations, then the rates of the angles,
+/// then their rates.
+std::vector<std::vector<Variable>> groups_of(const Case& settings) {
   using enum Variable;
-  if (half_model) return {{alpha, q}, {alphadot}};
-  return {{alpha, beta, q}, {p, r}, {alphadot, betadot}};
+  std::vector<std::vector<Variable>> out;
+  if (settings.reference.half_model)
+    out = {{alpha, q}, {alphadot}, {alphaddot}};
+  else
+    out = {{alpha, beta, q}, {p, r}, {alphadot, betadot}, {alphaddot, betaddot}};
+  if (!settings.derivatives.second_order) out.pop_back();
+  return out;
 }
 
 void add_column(DerivativeSet& derivatives, Variable variable, const Sensitivity& solution,
                 const Case& settings) {
   const Real rate_scale =
-      is_rate(variable) ? 2 * settings.freestream.mach / settings.reference.length : Real{1};
+      std::pow(2 * settings.freestream.mach / settings.reference.length, time_derivatives(variable));
   const auto values = coefficients(rate_scale * solution.total, settings);
   const auto errors = coefficients(rate_scale * solution.total_error, settings);
   CoefficientsOf<Estimate> column;
@@ -95,7 +107,7 @@ DerivativeSet solve_all(FlowCase& flow) {
   };
   DerivativeSet out;
   SensitivitySolver solver(flow.iteration(), flow.conditions(), settings.derivatives, go_on);
-  for (const auto& group : groups_of(settings.reference.half_model)) {
+  for (const auto& group : groups_of(settings)) {
     if (!responses.has(group.front())) {
       std::vector<SensitivityProblem> problems;
       for (const auto variable : group) problems.push_back(problem_of(variable, flow, responses));
@@ -125,6 +137,11 @@ void write_tables(const FlowCase& flow, const DerivativeSet& derivatives, const 
                           coefficients(flow.steady_report().total, settings), derivatives};
   const std::string stem = flow.folder() + "/derivatives";
   replace_file_with(stem + ".csv", derivative_csv(rows, settings.reference));
+  const auto stability =
+      to_stability_axes(derivatives, point.steady, settings.freestream.alpha * radians_per_degree);
+  replace_file_with(stem + ".stability_axes.csv",
+                    derivative_csv(rows_of(stability, rows.front().method, Axes::stability),
+                                   settings.reference, Axes::stability));
   replace_file_with(stem + ".st", avl_stability_text(point));
   replace_file_with(stem + ".jsbsim.xml", jsbsim_aerodynamics(point));
 }
@@ -135,6 +152,10 @@ void print_static_margin(const Case& settings, const DerivativeSet& derivatives)
   const auto margin = static_margin(alpha.CN, alpha.Cm);
   fmt::print("Static margin {:.4f} lengths, neutral point x = {:.4f}\n", margin.value,
              settings.reference.moment_center.x + margin.value * settings.reference.length);
+  if (const auto second = derivatives.find(Variable::alphaddot); second != derivatives.end())
+    fmt::print("Quasi-steady to 1 % up to a reduced frequency of {:.3g} in CN, {:.3g} in Cm\n",
+               quasi_steady_limit(alpha.CN.value, second->second.CN.value, 0.01),
+               quasi_steady_limit(alpha.Cm.value, second->second.Cm.value, 0.01));
 }
 
 }  // namespace
@@ -163,8 +184,7 @@ RunStatus derivatives_verb(const CaseArguments& arguments, const Communicator& c
                  comm.sum(linear_time.cpu()));
   } catch (const DivergedError& error) {
     status = RunStatus::diverged;
-    flow.set_message(error.what());
-    spdlog::error("diverged: {}", error.what());
+    flow.report_divergence(error);
   }
 
   const auto rows = rows_of(

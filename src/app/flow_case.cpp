@@ -202,6 +202,9 @@ RunStatus FlowCase::march() {
   steady_cpu_ = timer.cpu();
   steady_report_ = result.report;
   if (result.status == RunStatus::interrupted) message_ = checkpoints_.stop_reason();
+  if (result.report.fallback_faces > 0)
+    spdlog::info("{} faces fall back to first order to keep density and pressure positive",
+                 result.report.fallback_faces);
   if (result.status == RunStatus::diverged)
     throw DivergedError("the steady march found no CFL number that holds");
   if (result.status == RunStatus::completed) {
@@ -211,6 +214,24 @@ RunStatus FlowCase::march() {
   }
   if (steady_state_.iteration > saved) save(steady_head("steady"));
   return result.status;
+}
+
+void FlowCase::report_divergence(const DivergedError& error) {
+  constexpr std::size_t listed = 50, named_in_message = 3;
+  const auto cells = iteration_.worst_cells(listed);
+  std::string table =
+      "# cells whose density changes fastest, worst first; 1e300: the residual is not a number\n"
+      "cell,x,y,z,change\n";
+  message_ = error.what();
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    const auto& [id, at, change] = cells[i];
+    table += fmt::format("{},{:.9g},{:.9g},{:.9g},{:.6g}\n", id, at.x, at.y, at.z, change);
+    if (i < named_in_message)
+      message_ += fmt::format("{} cell {} at ({:.5g}, {:.5g}, {:.5g})", i == 0 ? "; worst:" : ",", id, at.x,
+                              at.y, at.z);
+  }
+  spdlog::error("diverged: {}", message_);
+  comm_.on_root([&] { replace_file_with(folder_ + "/worst_cells.csv", table); });
 }
 
 std::vector<std::string> FlowCase::excluded_patches() const {

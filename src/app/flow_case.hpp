@@ -11,6 +11,7 @@
 #include "app/progress.hpp"
 #include "app/setup.hpp"
 #include "app/verbs.hpp"
+#include "core/error.hpp"
 #include "core/timer.hpp"
 #include "io/result.hpp"
 #include "solver/steady.hpp"
@@ -53,6 +54,10 @@ class FlowCase {
   CheckpointHead steady_head(std::string phase) const;
   /// Why the run ended as it did, for the result.
   void set_message(std::string message) { message_ = std::move(message); }
+
+  /// Says where the flow went wrong: in the message of the result, in the log and in worst_cells.csv.
+  /// Collective.
+  void report_divergence(const DivergedError& error);
 
   /// Everything in result.json, with the derivatives of a table. Collective.
   Result result(RunStatus status, std::span<const TableRow> derivatives = {}) const;

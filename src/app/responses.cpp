@@ -10,8 +10,9 @@ namespace alphadot {
 
 namespace {
 
-constexpr Variable solved_for[] = {Variable::alpha, Variable::beta,     Variable::p,      Variable::q,
-                                   Variable::r,     Variable::alphadot, Variable::betadot};
+constexpr Variable solved_for[] = {Variable::alpha,   Variable::beta,      Variable::p,
+                                   Variable::q,       Variable::r,         Variable::alphadot,
+                                   Variable::betadot, Variable::alphaddot, Variable::betaddot};
 
 std::string entry_of(Variable variable) {
   return "response_" + std::string(name(variable));

@@ -75,6 +75,7 @@ RunStatus follow_motion(FlowCase& flow, History& history) {
   DualTime dual_time(flow.iteration(), flow.motion(), settings.motion.axis_point, time_step,
                      flow.steady_report().total, flow.treatment(time_step));
   const auto* restart = flow.checkpoints().restart();
+  flow.iteration().freeze_limiter(false);  // shocks move
   if (restart && restart->phase == "motion") restore(*restart, flow, dual_time, history);
   // The record of a response begins with the loads before it and, after a jump, with those just after.
   if (dual_time.step() == 0 && !flow.motion().is_harmonic()) {
@@ -128,8 +129,7 @@ RunStatus run_verb(const CaseArguments& arguments, const Communicator& comm) {
     }
   } catch (const DivergedError& error) {
     status = RunStatus::diverged;
-    flow.set_message(error.what());
-    spdlog::error("diverged: {}", error.what());
+    flow.report_divergence(error);
   }
 
   if (history.steps() > 0) comm.on_root([&] { write_history(flow.folder(), history); });

@@ -48,7 +48,7 @@ struct SpaceSettings {
   GradientKind gradient = GradientKind::least_squares;
   LimiterKind limiter = LimiterKind::venkatakrishnan;
   Real limiter_k = 5;      ///< Venkatakrishnan's K
-  Real freeze_orders = 0;  ///< decades of residual after which the limiter is frozen; 0: never
+  Real freeze_orders = 3;  ///< decades of residual after which the limiter is frozen; 0: never
   Real entropy_fix = 0.1;  ///< Harten's delta as a share of the spectral radius
 };
 
@@ -86,6 +86,7 @@ struct DerivativeSettings {
   Real orders = 3;      ///< decades that the preconditioned residual must drop
   int directions = 80;  ///< of the Krylov space before it begins anew
   int max_iterations = 300;
+  bool second_order = false;  ///< also with respect to the second time derivatives of alpha and beta
 
   bool operator==(const DerivativeSettings&) const = default;
 };

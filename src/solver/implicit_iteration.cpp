@@ -55,6 +55,42 @@ FlowReport ImplicitIteration::report() const {
   return out;
 }
 
+std::vector<SuspectCell> ImplicitIteration::worst_cells(std::size_t count) const {
+  constexpr Real not_finite = 1e300;
+  const Subdomain& domain = discretization_.domain();
+  const auto is_worse = [](const SuspectCell& a, const SuspectCell& b) { return a.change > b.change; };
+  const auto keep_worst = [&](std::vector<SuspectCell>& cells) {
+    const auto kept = static_cast<std::ptrdiff_t>(std::min(count, cells.size()));
+    std::partial_sort(cells.begin(), cells.begin() + kept, cells.end(), is_worse);
+    cells.resize(static_cast<std::size_t>(kept));
+  };
+  std::vector<SuspectCell> cells;
+  for (Index cell = 0; cell < domain.owned_cells; ++cell) {
+    const auto& value = values_[static_cast<std::size_t>(cell)];
+    const bool finite = std::isfinite(value[0] + value[1] + value[2] + value[3] + value[4]);
+    cells.push_back({domain.cell_ids[cell], domain.center[cell],
+                     finite ? std::abs(value[0]) / domain.volume[cell] : not_finite});
+  }
+  keep_worst(cells);
+  // Every rank puts its own into its place of one buffer.
+  constexpr std::size_t numbers = 5;
+  std::vector<Real> all(static_cast<std::size_t>(comm_.size()) * count * numbers);
+  auto next =
+      all.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(comm_.rank()) * count * numbers);
+  for (const auto& cell : cells)
+    for (const Real value :
+         {static_cast<Real>(cell.id + 1), cell.center.x, cell.center.y, cell.center.z, cell.change})
+      *next++ = value;
+  comm_.sum(all);
+  cells.clear();
+  for (std::size_t i = 0; i < all.size(); i += numbers)
+    if (all[i] > 0)
+      cells.push_back(
+          {static_cast<GlobalIndex>(all[i]) - 1, {all[i + 1], all[i + 2], all[i + 3]}, all[i + 4]});
+  keep_worst(cells);
+  return cells;
+}
+
 Index ImplicitIteration::advance() {
   ++iterations_;
   const LinearSystem system{values_, update_};

@@ -22,6 +22,13 @@ struct FlowReport {
   bool physical = true;  ///< every residual is finite
 };
 
+/// A cell in which the flow goes wrong.
+struct SuspectCell {
+  GlobalIndex id = 0;  ///< in the order of the mesh file
+  Vec3 center;
+  Real change = 0;  ///< |net mass outflow| per volume; huge when the residual is not finite
+};
+
 /// Unknowns, residual and update of one rank, and the steps of an iteration on them.
 class ImplicitIteration {
  public:
@@ -48,6 +55,9 @@ class ImplicitIteration {
   void evaluate(const Conditions<Real>& conditions, int order);
   /// Norm, loads and flags of the latest evaluation: one all-reduce.
   FlowReport report() const;
+  /// The cells of all ranks in which the latest residual is not finite or else makes the density change most,
+  /// worst first. Collective.
+  std::vector<SuspectCell> worst_cells(std::size_t count) const;
   void linearise(const Conditions<Real>& conditions, const TimeTerms& time) {
     solver_->linearise(flow_, conditions, time);
   }
