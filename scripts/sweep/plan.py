@@ -41,7 +41,7 @@ class Run:
 
     @property
     def is_motion(self) -> bool:
-        """Does it march in time, with checkpoints on the way?"""
+        """Does it march in time?"""
         return self.method not in (DERIVATIVES, STEADY)
 
     def identity(self) -> dict:

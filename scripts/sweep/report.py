@@ -59,9 +59,7 @@ def headline(results: Results) -> list[tuple[str, str]]:
     out = []
     if results.beside_paper:
         paper, center = results.published.paper, results.center
-        pairs = [
-            (entry.here.about(center), {k: float(v) for k, v in paper[entry.mach].items()}) for entry in results.beside_paper
-        ]
+        pairs = [(entry.here.about(center), {k: float(v) for k, v in paper[entry.mach].items()}) for entry in results.beside_paper]
         static = max(abs(relative(here.Cm_alpha, row["static_field"])) for here, row in pairs)
         out.append((f"{static:.1f} %", f"largest difference of Cm_alpha from the paper, about the fitted centre {center:.2f} d"))
         acceleration = max(abs(here.Cm_alphadot - row["acceleration_field"]) for here, row in pairs)
@@ -69,8 +67,9 @@ def headline(results: Results) -> list[tuple[str, str]]:
         damping = [abs(relative(here.Cm_q, row["damping_field"])) for here, row in pairs if finite(here.Cm_q)]
         if damping:
             out.append((f"{max(damping):.1f} %", "largest difference of Cm_q from the paper, a prediction"))
-    wall = sum(entry.result["performance"]["wall_s"] or 0 for entry in results.entries)
-    out.append((duration(wall), f"of wall clock for {len(results.entries)} runs on {results.entries[0].result['ranks']} ranks"))
+    wall, processor = (sum(entry.result["performance"][key] or 0 for entry in results.entries) for key in ("wall_s", "cpu_s"))
+    runs = f"{len(results.entries)} runs on {results.entries[0].result['ranks']} ranks"
+    out.append((duration(processor), f"of processor for {runs}, {duration(wall)} on the wall"))
     return out
 
 
@@ -127,7 +126,9 @@ def against_mach(results: Results, folder: Path) -> str:
 
 def loops(results: Results, folder: Path) -> str:
     drawn = page.grid(figures.loop_figures(results, folder), broad=True)
-    note = "The paper's Fig. 4. The area of the loop is π k α<sub>m</sub>² Cm_alphadot: too slender to be seen beside the static part."
+    note = (
+        "The paper's Fig. 4. The area of the loop is π k α<sub>m</sub>² Cm_alphadot: too slender to be seen beside the static part."
+    )
     return f'{drawn}<p class="note">{note}</p>' if drawn else ""
 
 
@@ -138,9 +139,7 @@ def derivatives(results: Results, folder: Path) -> str:
 def unfinished(results: Results) -> str:
     rows = [[run.name, state.phase.value, state.detail] for run, state in results.unfinished]
     return (
-        page.table(
-            tables.Table("unfinished", "Runs without a result", ["run", "state", "reason or progress"], rows, ["", "", ""])
-        )
+        page.table(tables.Table("unfinished", "Runs without a result", ["run", "state", "reason or progress"], rows, ["", "", ""]))
         if rows
         else ""
     )

@@ -95,7 +95,7 @@ def is_extension(record: dict, run: Run) -> bool:
 
 def checkpoints(run: Run) -> list[Path]:
     """What a restart of the run can start from."""
-    return sorted(run.folder.glob("checkpoint*")) if run.is_motion else []
+    return sorted(run.folder.glob("checkpoint_*.vtkhdf"))
 
 
 def read_state(run: Run) -> State:
