@@ -112,12 +112,13 @@ Extraction derivatives_so_far(const History& history) {
   try {
     if (!is_harmonic(motion.kind)) return extract_derivatives(history);
     const Real cycles = history.column("t_star").back() * motion.reduced_frequency / (2 * pi);
-    // Half a cycle at least; what is more than that goes to the start that is left out, up to the final
-    // fit's.
+    // Half a cycle at least; what is more goes to the start that is left out, up to the final fit's, then to
+    // the window, up to the latest cycle: the cost must not grow with the record.
     HarmonicBasis basis{.reduced_frequency = motion.reduced_frequency, .least_cycles = 0.5};
     if (cycles < basis.least_cycles + least_discarded) return {};
-    basis.discarded_cycles = std::min(cycles - basis.least_cycles, basis.discarded_cycles);
-    if (cycles < basis.discarded_cycles + 1) basis.harmonics = 1;
+    basis.discarded_cycles =
+        std::max(cycles - 1, std::min(cycles - basis.least_cycles, basis.discarded_cycles));
+    if (cycles < basis.discarded_cycles + 1 - 1e-6) basis.harmonics = 1;
     return harmonic_extraction(history, basis);
   } catch (const InputError&) {
     return {};  // not enough of it yet

@@ -19,7 +19,7 @@ struct Extraction {
 Extraction extract_derivatives(const History& history);
 
 /// The same from what a motion under way has recorded so far, to be shown, without uncertainty: of a harmonic
-/// motion from six tenths of a cycle on. Empty where it is too early.
+/// motion from six tenths of a cycle on, of its latest cycle at most. Empty where it is too early.
 Extraction derivatives_so_far(const History& history);
 
 /// The word of the case file for a motion, "plunge".

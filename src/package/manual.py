@@ -21,6 +21,8 @@ Started by
 or srun it runs on any number of ranks, with the same result.
 """
 
+COLUMN = 30  # where the help's meanings begin
+
 AFTER = r"""
 .SH FILES
 In the folder of a run:
@@ -93,10 +95,16 @@ def roff(text: str) -> str:
 
 
 def entries(text: str, heading: str) -> list[tuple[str, str]]:
-    """The "  name  meaning" lines below a heading of the help."""
+    """Names and meanings below a heading of the help: the meaning is from COLUMN on, of the next line when the name is too long."""
     block = re.search(rf"^{heading}:\n((?:  .*\n?)+)", text, re.MULTILINE)
-    lines = re.sub(r"\n {10,}", "  ", block[1]).splitlines() if block else []
-    return [tuple(re.split(r" {2,}", line.strip(), maxsplit=1)) for line in lines]
+    lines = block[1].splitlines() if block else []
+    out: list[tuple[str, str]] = []
+    for line, before in zip(lines, ["", *lines]):
+        if not line[:COLUMN].strip():
+            out[-1] = (before.strip(), line.strip())
+        else:
+            out.append((line[:COLUMN].strip(), line[COLUMN:].strip()))
+    return out
 
 
 def listed(items: list[tuple[str, str]]) -> str:
