@@ -27,19 +27,18 @@ Watchdog::~Watchdog() {
 }
 
 void Watchdog::watch(Real minutes, int rank) {
-  using Clock = std::chrono::steady_clock;
   using Seconds = std::chrono::duration<Real>;
   const Seconds allowed(60 * minutes + std::min(rank, 10));  // a second for mpirun to end the others
+  const Seconds between_looks = std::min(Seconds(1), allowed / 4);
+  // Time by looks, so that a program that was itself stopped and goes on does not count as hanging.
+  Seconds silent(0);
   GlobalIndex last = progress_();
-  auto changed = Clock::now();
   std::unique_lock lock(mutex_);
-  while (!ended_.wait_for(lock, std::min(Seconds(1), allowed / 4), [this] { return is_over_; })) {
-    const auto now = Clock::now();
-    if (const auto count = progress_(); count != last) {
-      last = count;
-      changed = now;
-    }
-    if (now - changed < allowed) continue;
+  while (!ended_.wait_for(lock, between_looks, [this] { return is_over_; })) {
+    const auto count = progress_();
+    silent = count == last ? silent + between_looks : Seconds(0);
+    last = count;
+    if (silent < allowed) continue;
     // Not MPI_Abort: the rank's own thread may be inside MPI for ever.
     fmt::print(
         stderr,

@@ -7,9 +7,15 @@ from __future__ import annotations
 
 import os
 import subprocess
+import tempfile
 from dataclasses import dataclass
 from itertools import permutations, product
 from pathlib import Path
+
+# A program on one rank needs no daemon, which takes longer to start than all the rest. Without one, programs that run at the
+# same time must not share Open MPI's folder.
+MPI_FOLDER = tempfile.TemporaryDirectory()
+os.environ |= {"OMPI_MCA_ess_singleton_isolated": "1", "OMPI_MCA_orte_tmpdir_base": MPI_FOLDER.name}
 
 PROGRAM = os.environ["ALPHADOT"]
 RANKS = int(os.environ.get("RANKS", "1"))

@@ -17,11 +17,8 @@ SHORT = settings(unsteady_cycles=0.25, checkpoint_steps=1)
 
 
 def largest_file(size: int) -> dict[str, object]:
-    """Options of subprocess.run: no file of the run may grow above `size` bytes. MPI then must not keep files of its own."""
-    return {
-        "preexec_fn": lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (size, size)),
-        "env": os.environ | {"OMPI_MCA_ess_singleton_isolated": "1"},
-    }
+    """Options of subprocess.run: no file of the run may grow above `size` bytes."""
+    return {"preexec_fn": lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (size, size))}
 
 
 class Disk(unittest.TestCase):

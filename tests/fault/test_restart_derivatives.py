@@ -15,7 +15,7 @@ from runs import LiveRun, checkpoints, derivatives, make_case, result, run, sett
 
 FILES = ("derivatives.csv", "derivatives.st", "derivatives.jsbsim.xml", "flow.vtkhdf", "surface.vtkhdf")
 EVERY = settings(checkpoint_iterations=1, checkpoint_keep=100)
-SLOW = settings(derivatives_restart=2, derivatives_orders=12, derivatives_max_iterations=100000, steady_sweeps=1)
+SLOW = settings(derivatives_directions=2, derivatives_orders=12, derivatives_max_iterations=100000, steady_sweeps=1)
 
 
 class RestartDerivatives(unittest.TestCase):

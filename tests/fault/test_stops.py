@@ -105,10 +105,10 @@ class Stops(unittest.TestCase):
                 self.assertEqual(result(self.part)["status"], "interrupted")
 
     def test_wall_limit(self) -> None:
-        done = run(self.folder, self.part, *LONG, *settings(checkpoint_wall_limit_minutes=0.05))
+        done = run(self.folder, self.part, *LONG, *settings(checkpoint_wall_limit_minutes=0.1))
         self.assertEqual(done.returncode, 3, done.stderr)
         self.assertIn("wall time limit", result(self.part)["message"])
-        self.assertLess(result(self.part)["performance"]["wall_s"], 3)
+        self.assertLess(result(self.part)["performance"]["wall_s"], 6)
 
     def test_checkpoints_by_the_clock(self) -> None:
         live = self.start(*LONG, *settings(checkpoint_minutes=0.003))
