@@ -37,7 +37,7 @@ sinfo
 step "A sweep whose plunge is longer than the limit of its job, and the same without a limit"
 /usr/bin/python3 cases/basic_finner/mesh.py --level coarse --output "$folder/coarse.msh"
 cp cases/basic_finner/{derivatives,plunge}.toml "$folder"
-# So many steps that the plunge takes minutes. Slurm may send its signal up to a minute earlier than it is told to.
+# So many steps that the plunge takes several minutes. Slurm may send its signal up to a minute earlier than it is told to.
 sweep() {
   cat <<END
 title = "Sweep under Slurm"
@@ -54,7 +54,7 @@ mach = 2.5
 case = "plunge.toml"
 method = "plunge"
 mach = 2.5
-set."unsteady.steps_per_cycle" = ${STEPS:-240}
+set."unsteady.steps_per_cycle" = ${STEPS:-480}
 END
 }
 sweep limited > "$folder/limited.toml"
