@@ -10,18 +10,14 @@ from pathlib import Path
 
 import numpy as np
 
-from exact import CASES, ExactCase, run, table
+from exact import CASES, ExactCase, cone_derivatives, run, table
 
 sys.path.insert(0, str(CASES / "sharp_cone"))
 import compare
 
 STEADY = table("sharp_cone/reference/exact_cone_steady.csv")
 NAMES = ("CN_alpha", "CN_q", "Cm_q", "CN_alphadot", "Cm_alphadot")
-(EXACT,) = (
-    row
-    for row in table("sharp_cone/reference/exact_cone_derivatives.csv")
-    if abs(row["x_ref_over_l"] - 2 / 3) < 1e-3 and abs(row["CN_q"] - 0.543) < 1e-3
-)
+EXACT = cone_derivatives()
 
 
 def derivatives(case: str, mesh: str) -> dict[str, float]:
