@@ -73,6 +73,11 @@ wait_until() {
 
 stop_node() {
   scancel --user=root --quiet 2>/dev/null || true
+  local try
+  for try in {1..30}; do  # jobs that are stopped half-way take their time, and slurmd waits for them
+    [[ -n $(squeue --noheader 2>/dev/null) ]] || break
+    sleep 0.5
+  done
   if ((${#slurm_pids[@]})); then
     kill "${slurm_pids[@]}" 2>/dev/null || true
     wait "${slurm_pids[@]}" 2>/dev/null || true
