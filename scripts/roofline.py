@@ -1,8 +1,8 @@
 #!/usr/bin/python3
 """The solver's kernels against the bandwidth and the peak of this machine.
 
-Runs the bench program (build-test/alphadot_bench, made by `cmake --preset test && cmake --build --preset test`) on one rank and on
-every core, and writes roofline.json, roofline.txt, roofline.svg and roofline.png. Bytes are the least that must move when every
+Runs the bench program (build-bench/alphadot_bench, made by `cmake --preset bench && cmake --build --preset bench`) on one rank and
+on every core, and writes roofline.json, roofline.txt, roofline.svg and roofline.png. Bytes are the least that must move when every
 array passes through the caches once a loop; flops are counted by the solver's own source; bandwidth is a triad's over arrays that
 no cache holds; times are of the processor, the best of several. Needs Debian's python3-matplotlib (hence /usr/bin/python3).
 """
@@ -79,7 +79,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("mesh", type=Path, help="mesh of the case, of 100,000 cells or more (no cache must hold its arrays)")
     parser.add_argument("--case", type=Path, default=ROOT / "cases" / "basic_finner" / "derivatives.toml")
-    parser.add_argument("--bench", type=Path, default=ROOT / "build-test" / "alphadot_bench", help="the bench program")
+    parser.add_argument("--bench", type=Path, default=ROOT / "build-bench" / "alphadot_bench", help="the bench program")
     parser.add_argument("--ranks", type=int, nargs="+", default=sorted({1, os.cpu_count() or 1}))
     parser.add_argument("--out", type=Path, default=Path("runs/roofline"), help="folder (default: runs/roofline)")
     arguments = parser.parse_args()
