@@ -10,7 +10,9 @@
 namespace alphadot {
 
 namespace {
-constexpr Real pseudo_cfl = 1e6;     // the physical time term is damping enough
+constexpr Real pseudo_cfl = 1e6;  // the physical time term is damping enough
+constexpr int stall = 10;         // inner iterations that end a step when they do not lower the residual ...
+constexpr Real least_drop = 0.8;  // ... to this share of the lowest so far
 constexpr Real slowest_rate = 0.95;  // of convergence of the moment that its error estimate allows for
 
 /// The same state along axes turned by `angle`.
@@ -112,7 +114,8 @@ StepReport DualTime::advance(const InnerTolerance& tolerance) {
   const int axis = motion_.moment_axis();
   predict(axes);
   iteration_.linearise(conditions, {.cfl = pseudo_cfl, .inverse_step = inverse_step});
-  Real first = 0, change = 0;
+  Real first = 0, change = 0, lowest = 0;
+  int lowest_at = 0;
   Load previous;
   for (int inner = 0;; ++inner) {
     iteration_.evaluate(conditions, iteration_.discretization().space().order);
@@ -121,6 +124,10 @@ StepReport DualTime::advance(const InnerTolerance& tolerance) {
     if (!out.report.physical)
       throw DivergedError("the flow became unphysical in time step " + std::to_string(state_.step));
     if (inner == 0) first = std::max(out.report.density_residual, 1e-300);
+    if (inner == 0 || out.report.density_residual < least_drop * lowest) {
+      lowest = out.report.density_residual;
+      lowest_at = inner;
+    }
     out.inner_iterations = inner;
     out.inner_orders = std::log10(first / std::max(out.report.density_residual, 1e-300));
 
@@ -133,7 +140,7 @@ StepReport DualTime::advance(const InnerTolerance& tolerance) {
     previous = out.report.total;
     const Real allowed = tolerance.share * moment_scale(out, tolerance.amplitude);
     if (inner >= 3 && std::abs(out.error.moment[axis]) <= allowed) break;
-    if (inner >= tolerance.max_iterations) break;
+    if (inner >= tolerance.max_iterations || inner - lowest_at >= stall) break;
     iteration_.advance();
   }
   keep_levels(axes);

@@ -58,7 +58,9 @@ class DualTime {
   /// move, the gas on it has not (see wall_pressure).
   StepReport just_after_start() const;
 
-  /// One step of BDF2 (backward Euler for the first). Throws DivergedError when a state turns unphysical.
+  /// One step of BDF2 (backward Euler for the first). It ends when the moment is within the tolerance, the
+  /// inner iterations are used up, or the residual has come to a stall, as where a limiter never rests; the
+  /// report holds the error that is left. Throws DivergedError when a state turns unphysical.
   StepReport advance(const InnerTolerance& tolerance);
 
   int step() const { return state_.step; }
