@@ -11,7 +11,9 @@ import re
 import signal
 import subprocess
 import sys
+import tempfile
 import time
+import unittest
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "app"))
@@ -51,6 +53,17 @@ def run(
     """A run to its end; raises subprocess.TimeoutExpired when it hangs."""
     line = command(out, *arguments, ranks=ranks, verb=verb)
     return subprocess.run(line, cwd=folder, capture_output=True, text=True, timeout=SECONDS, **options)
+
+
+class CaseInFolder(unittest.TestCase):
+    """The case in a folder of its own, and names for the folders of an undisturbed and of a disturbed run."""
+
+    def setUp(self) -> None:
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.folder = Path(temporary.name)
+        make_case(self.folder)
+        self.full, self.part = self.folder / "full", self.folder / "part"
 
 
 class LiveRun:

@@ -7,11 +7,9 @@ import os
 import resource
 import shutil
 import subprocess
-import tempfile
 import unittest
-from pathlib import Path
 
-from runs import LiveRun, checkpoints, differences, make_case, result, run, settings
+from runs import CaseInFolder, LiveRun, checkpoints, differences, result, run, settings
 
 SHORT = settings(unsteady_cycles=0.25, checkpoint_steps=1)
 
@@ -21,14 +19,7 @@ def largest_file(size: int) -> dict[str, object]:
     return {"preexec_fn": lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (size, size))}
 
 
-class Disk(unittest.TestCase):
-    def setUp(self) -> None:
-        temporary = tempfile.TemporaryDirectory()
-        self.addCleanup(temporary.cleanup)
-        self.folder = Path(temporary.name)
-        make_case(self.folder)
-        self.full, self.part = self.folder / "full", self.folder / "part"
-
+class Disk(CaseInFolder):
     def full_run(self) -> None:
         done = run(self.folder, self.full, *SHORT)
         self.assertEqual(done.returncode, 0, done.stderr)

@@ -5,23 +5,15 @@ from __future__ import annotations
 
 import shutil
 import subprocess
-import tempfile
 import unittest
 from pathlib import Path
 
-from runs import STEPS, checkpoints, derivatives, differences, make_case, result, run, settings
+from runs import CaseInFolder, STEPS, checkpoints, derivatives, differences, make_case, result, run, settings
 
 INDICIAL = settings(motion_kind="step_alpha", unsteady_duration=2, unsteady_steps=8)
 
 
-class Restart(unittest.TestCase):
-    def setUp(self) -> None:
-        temporary = tempfile.TemporaryDirectory()
-        self.addCleanup(temporary.cleanup)
-        self.folder = Path(temporary.name)
-        make_case(self.folder)
-        self.full, self.part = self.folder / "full", self.folder / "part"
-
+class Restart(CaseInFolder):
     def run_ok(self, out: Path, *arguments: object, code: int = 0, ranks: int = 1) -> subprocess.CompletedProcess[str]:
         done = run(self.folder, out, *arguments, ranks=ranks)
         self.assertEqual(done.returncode, code, done.stderr)

@@ -6,26 +6,18 @@ from __future__ import annotations
 import os
 import signal
 import subprocess
-import tempfile
 import time
 import unittest
 from pathlib import Path
 
-from runs import LiveRun, checkpoints, derivatives, make_case, result, run, settings
+from runs import CaseInFolder, LiveRun, checkpoints, derivatives, make_case, result, run, settings
 
 FILES = ("derivatives.csv", "derivatives.st", "derivatives.jsbsim.xml", "flow.vtkhdf", "surface.vtkhdf")
 EVERY = settings(checkpoint_iterations=1, checkpoint_keep=100)
 SLOW = settings(derivatives_directions=2, derivatives_orders=12, derivatives_max_iterations=100000, steady_sweeps=1)
 
 
-class RestartDerivatives(unittest.TestCase):
-    def setUp(self) -> None:
-        temporary = tempfile.TemporaryDirectory()
-        self.addCleanup(temporary.cleanup)
-        self.folder = Path(temporary.name)
-        make_case(self.folder)
-        self.full, self.part = self.folder / "full", self.folder / "part"
-
+class RestartDerivatives(CaseInFolder):
     def run_ok(self, out: Path, *arguments: object, ranks: int = 1, verb: str = "derivatives") -> subprocess.CompletedProcess[str]:
         done = run(self.folder, out, *arguments, ranks=ranks, verb=verb)
         self.assertEqual(done.returncode, 0, done.stderr)

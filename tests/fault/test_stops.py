@@ -6,24 +6,16 @@ from __future__ import annotations
 import os
 import signal
 import shutil
-import tempfile
 import time
 import unittest
 from pathlib import Path
 
-from runs import LiveRun, checkpoints, differences, make_case, result, run, settings
+from runs import CaseInFolder, LiveRun, checkpoints, differences, result, run, settings
 
 LONG = settings(unsteady_cycles=10000)  # minutes, if nobody stops it
 
 
-class Stops(unittest.TestCase):
-    def setUp(self) -> None:
-        temporary = tempfile.TemporaryDirectory()
-        self.addCleanup(temporary.cleanup)
-        self.folder = Path(temporary.name)
-        make_case(self.folder)
-        self.full, self.part = self.folder / "full", self.folder / "part"
-
+class Stops(CaseInFolder):
     def start(self, *arguments: object, ranks: int = 1) -> LiveRun:
         live = LiveRun(self.folder, self.part, *arguments, ranks=ranks)
         self.addCleanup(lambda: live.kill() if live.process.poll() is None else None)
