@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <filesystem>
 #include <utility>
 
@@ -49,7 +48,7 @@ Checkpoints::Checkpoints(const Setup& setup, std::string folder, const Timer& si
       since_start_(since_start),
       comm_(comm),
       file_(setup.domain, comm),
-      last_poll_(since_start.wall()),
+      last_wish_(since_start.wall()),
       last_save_(since_start.wall()) {
   comm_.on_root([&] { in_folder_.emplace(folder_, setup_.settings.checkpoint.keep); });
 }
@@ -102,25 +101,34 @@ bool Checkpoints::wall_limit_is_near() const {
   return limit > 0 && since_start_.wall() + needed > limit;
 }
 
-Wish Checkpoints::poll(bool interval_is_over) {
-  const Real now = since_start_.wall();
-  longest_step_ = std::max(longest_step_, now - last_poll_);
-  last_poll_ = now;
+Passengers Checkpoints::passengers() {
+  return {[this] { return asked_here(); }, [this](std::span<const Real> asked) { hear(asked); }};
+}
+
+std::vector<Real> Checkpoints::asked_here() {
+  const auto number = [](bool yes) { return yes ? 1.0 : 0.0; };
   const Real interval = 60 * setup_.settings.checkpoint.minutes;
-  const bool by_clock = comm_.is_root() && interval > 0 && now - last_save_ > interval;
-  std::array<Real, 4> asked{interval_is_over || by_clock || take_checkpoint_signal() ? 1.0 : 0.0,
-                            stop_signalled() ? 1.0 : 0.0, comm_.is_root() && found_stop_file() ? 1.0 : 0.0,
-                            comm_.is_root() && wall_limit_is_near() ? 1.0 : 0.0};
-  comm_.max(std::span<Real>(asked));
+  const bool by_clock = comm_.is_root() && interval > 0 && since_start_.wall() - last_save_ > interval;
+  return {number(take_checkpoint_signal() || by_clock), number(stop_signalled()),
+          number(comm_.is_root() && found_stop_file()), number(comm_.is_root() && wall_limit_is_near())};
+}
+
+void Checkpoints::hear(std::span<const Real> asked) {
   if (asked[0] > 0) wish_.save = true;
-  if (!wish_.stop) {
-    if (asked[1] > 0) stop_reason_ = "stopped by a signal";
-    if (asked[2] > 0) stop_reason_ = "stopped by the file \"stop\" in the run's folder";
-    if (asked[3] > 0)
-      stop_reason_ = fmt::format("stopped before the wall time limit of {} minutes",
-                                 setup_.settings.checkpoint.wall_limit_minutes);
-  }
-  if (asked[1] + asked[2] + asked[3] > 0) wish_ = {true, true};
+  if (wish_.stop || asked[1] + asked[2] + asked[3] == 0) return;
+  wish_ = {true, true};
+  if (asked[1] > 0) stop_reason_ = "stopped by a signal";
+  if (asked[2] > 0) stop_reason_ = "stopped by the file \"stop\" in the run's folder";
+  if (asked[3] > 0)
+    stop_reason_ = fmt::format("stopped before the wall time limit of {} minutes",
+                               setup_.settings.checkpoint.wall_limit_minutes);
+}
+
+Wish Checkpoints::wish(bool interval_is_over) {
+  const Real now = since_start_.wall();
+  longest_step_ = std::max(longest_step_, now - last_wish_);
+  last_wish_ = now;
+  if (interval_is_over) wish_.save = true;
   return wish_;
 }
 

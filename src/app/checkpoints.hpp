@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -9,6 +10,7 @@
 #include "core/timer.hpp"
 #include "io/checkpoint.hpp"
 #include "io/checkpoint_folder.hpp"
+#include "solver/implicit_iteration.hpp"
 
 namespace alphadot {
 
@@ -33,16 +35,21 @@ class Checkpoints {
   /// Its states. Collective.
   void read(const std::vector<CheckpointField>& fields) const;
 
-  /// To be called after each iteration or step: signals, stop file and clock of all ranks, in one all-reduce.
-  /// A wish stays until it is fulfilled: by save(), or by the end.
-  Wish poll(bool interval_is_over);
+  /// Signals, stop file and clock of all ranks, for the all-reduces of an iteration. Refers to this object.
+  Passengers passengers();
+  /// To be called after each iteration or step: what the passengers told up to now. `interval_is_over`, the
+  /// same on all ranks, wishes for a checkpoint as well. A wish stays until it is fulfilled: by save(), or by
+  /// the end.
+  Wish wish(bool interval_is_over);
   /// Writes a checkpoint and tells of it. Collective. When it cannot be written: InputError on every rank, or
   /// a warning, as the case says.
   void save(const CheckpointHead& head, const std::vector<CheckpointField>& fields);
-  /// Why poll() wished for the end.
+  /// Why wish() is for the end.
   const std::string& stop_reason() const { return stop_reason_; }
 
  private:
+  std::vector<Real> asked_here();
+  void hear(std::span<const Real> asked);
   bool found_stop_file();
   bool wall_limit_is_near() const;
 
@@ -57,7 +64,7 @@ class Checkpoints {
   Wish wish_;
   std::string stop_reason_;
   std::string latest_;  ///< file name of the last whole checkpoint, on the root
-  Real last_poll_, longest_step_ = 0, last_save_, last_cost_ = 0, last_look_ = -1;  ///< seconds
+  Real last_wish_, longest_step_ = 0, last_save_, last_cost_ = 0, last_look_ = -1;  ///< seconds
 };
 
 }  // namespace alphadot

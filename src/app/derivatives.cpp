@@ -103,7 +103,7 @@ DerivativeSet solve_all(FlowCase& flow) {
       settings.checkpoint.watchdog_minutes, [&] { return linear_iterations.load(); }, flow.communicator());
   const auto go_on = [&] {
     ++linear_iterations;
-    return !flow.checkpoints().poll(false).stop;
+    return !flow.checkpoints().wish(false).stop;
   };
   DerivativeSet out;
   SensitivitySolver solver(flow.iteration(), flow.conditions(), settings.derivatives, go_on);

@@ -79,6 +79,7 @@ FlowCase::FlowCase(const CaseArguments& arguments, const Communicator& comm)
       memory.peak / cells, 1e-9 * memory.busiest_rank);
   const auto excluded = excluded_patches();
   if (!excluded.empty()) spdlog::info("left out of the forces: {}", fmt::join(excluded, ", "));
+  iteration_.take_along(checkpoints_.passengers());
   if (arguments.restart) checkpoints_.begin_from(*arguments.restart);
 }
 
@@ -125,28 +126,15 @@ CheckpointHead FlowCase::checkpoint_head(std::string phase) const {
   out.message = message_;
   out.history.info = history_info(settings(), setup_.mesh.hash);
   out.numbers["limiter_is_frozen"] = {iteration_.limiter_is_frozen() ? 1.0 : 0.0};
-  for (const Load& load : steady_report_.loads)
-    for (int i = 0; i < 3; ++i) {
-      out.numbers["steady_forces"].push_back(load.force[i]);
-      out.numbers["steady_moments"].push_back(load.moment[i]);
-    }
+  out.numbers["steady_loads"] = numbers_of(steady_report_.loads);
   return out;
 }
 
 void FlowCase::restore_steady(const CheckpointHead& head) {
   message_ = head.message;
-  const auto& forces = head.numbers.at("steady_forces");
-  const auto& moments = head.numbers.at("steady_moments");
   steady_report_ = {};
-  steady_report_.loads.resize(forces.size() / 3);
-  for (std::size_t patch = 0; patch < steady_report_.loads.size(); ++patch) {
-    Load& load = steady_report_.loads[patch];
-    for (int i = 0; i < 3; ++i) {
-      load.force[i] = forces[3 * patch + static_cast<std::size_t>(i)];
-      load.moment[i] = moments[3 * patch + static_cast<std::size_t>(i)];
-    }
-    steady_report_.total += load;
-  }
+  steady_report_.loads = loads_of(head.numbers.at("steady_loads"));
+  steady_report_.total = total_of(steady_report_.loads);
 }
 
 CheckpointHead FlowCase::steady_head(std::string phase) const {
@@ -180,7 +168,7 @@ RunStatus FlowCase::march() {
   const auto observe = [&](const SteadyProgress& p) {
     progress_.show(p);
     steady_state_ = p.state;
-    const Wish wish = checkpoints_.poll(interval > 0 && p.iteration % interval == 0);
+    const Wish wish = checkpoints_.wish(interval > 0 && p.iteration % interval == 0);
     if (wish.save && p.resumable) {
       save(steady_head("steady"));
       saved = steady_state_.iteration;

@@ -1,5 +1,6 @@
 #include "app/responses.hpp"
 
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -20,34 +21,24 @@ std::string entry_of(Variable variable) {
 
 /// What a checkpoint keeps of a response besides its field.
 std::vector<Real> numbers_of(const Sensitivity& response) {
-  std::vector<Real> out{static_cast<Real>(response.iterations), response.relative_residual};
-  const auto append = [&](const Load& load) {
-    for (int i = 0; i < 3; ++i) out.push_back(load.force[i]);
-    for (int i = 0; i < 3; ++i) out.push_back(load.moment[i]);
-  };
-  append(response.total);
-  append(response.total_error);
-  for (const Load& load : response.loads) append(load);
+  std::vector<Load> loads{response.total, response.total_error};
+  loads.insert(loads.end(), response.loads.begin(), response.loads.end());
+  auto out = numbers_of(loads);
+  out.insert(out.end(), {static_cast<Real>(response.iterations), response.relative_residual});
   return out;
 }
 
 /// The way back; the field has zeros.
 Sensitivity response_of(Variable variable, const std::vector<Real>& numbers, std::size_t cells) {
-  std::size_t next = 2;
-  const auto take = [&] {
-    Load load;
-    for (int i = 0; i < 3; ++i) load.force[i] = numbers.at(next++);
-    for (int i = 0; i < 3; ++i) load.moment[i] = numbers.at(next++);
-    return load;
-  };
+  const auto loads = loads_of(std::span(numbers).first(numbers.size() - 2));
   Sensitivity out;
   out.name = name(variable);
   out.field.resize(cells);
-  out.iterations = static_cast<int>(numbers.at(0));
-  out.relative_residual = numbers.at(1);
-  out.total = take();
-  out.total_error = take();
-  while (next < numbers.size()) out.loads.push_back(take());
+  out.iterations = static_cast<int>(numbers[numbers.size() - 2]);
+  out.relative_residual = numbers.back();
+  out.total = loads.at(0);
+  out.total_error = loads.at(1);
+  out.loads.assign(loads.begin() + 2, loads.end());
   return out;
 }
 

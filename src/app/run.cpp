@@ -91,7 +91,7 @@ RunStatus follow_motion(FlowCase& flow, History& history) {
     const auto step = dual_time.advance(tolerance);
     history.append(history_row(step, flow));
     flow.progress().show(step, history);
-    const Wish wish = flow.checkpoints().poll(interval > 0 && step.step % interval == 0);
+    const Wish wish = flow.checkpoints().wish(interval > 0 && step.step % interval == 0);
     if (wish.save || step.step == steps) save(flow, dual_time, history);
     if (wish.stop && step.step < steps) {
       flow.set_message(flow.checkpoints().stop_reason());

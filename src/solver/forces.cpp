@@ -4,6 +4,27 @@
 
 namespace alphadot {
 
+std::vector<Real> numbers_of(std::span<const Load> loads) {
+  std::vector<Real> out;
+  out.reserve(6 * loads.size());
+  for (const Load& load : loads)
+    for (const Vec3& part : {load.force, load.moment}) out.insert(out.end(), {part.x, part.y, part.z});
+  return out;
+}
+
+std::vector<Load> loads_of(std::span<const Real> numbers) {
+  std::vector<Load> out;
+  for (auto n = numbers.begin(); n != numbers.end(); n += 6)
+    out.push_back({{n[0], n[1], n[2]}, {n[3], n[4], n[5]}});
+  return out;
+}
+
+Load total_of(std::span<const Load> loads) {
+  Load out;
+  for (const Load& load : loads) out += load;
+  return out;
+}
+
 template <class T>
 std::vector<LoadOf<T>> wall_loads(const Discretization& discretization, const Residual<T>& residual,
                                   const Vec3& center) {

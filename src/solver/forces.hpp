@@ -1,6 +1,7 @@
 // Pressure forces on the walls.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "solver/residual.hpp"
@@ -23,6 +24,12 @@ struct LoadOf {
   friend LoadOf operator*(Real s, const LoadOf& a) { return {s * a.force, s * a.moment}; }
 };
 using Load = LoadOf<Real>;
+
+/// Loads as six numbers each - force, then moment - for sums over ranks and for files.
+std::vector<Real> numbers_of(std::span<const Load> loads);
+/// The way back.
+std::vector<Load> loads_of(std::span<const Real> numbers);
+Load total_of(std::span<const Load> loads);
 
 /// Load of every patch that is a wall (zero for others): integral of (p - p_inf) n, moments about `center`,
 /// with the pressures of the latest evaluation.

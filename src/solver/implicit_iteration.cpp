@@ -27,31 +27,33 @@ void ImplicitIteration::evaluate(const Conditions<Real>& conditions, int order) 
   residual_.evaluate(flow_, conditions, order, values_);
 }
 
+void ImplicitIteration::sum(std::vector<Real>& numbers) const {
+  const std::size_t own = numbers.size();
+  const auto others = passengers_.of_this_rank();
+  numbers.insert(numbers.end(), others.begin(), others.end());
+  comm_.sum(numbers);
+  passengers_.hear(std::span(numbers).subspan(own));
+  numbers.resize(own);
+}
+
 FlowReport ImplicitIteration::report() const {
-  FlowReport out;
-  out.loads = wall_loads(discretization_, residual_, moment_center_);
-  std::vector<Real> buffer{0, 0, static_cast<Real>(residual_.fallback_faces())};
+  Real square = 0, not_finite = 0;
   for (const auto& value : values_) {
-    buffer[0] += value[0] * value[0];
-    buffer[1] += std::isfinite(value[0] + value[1] + value[2] + value[3] + value[4]) ? 0 : 1;
+    square += value[0] * value[0];
+    not_finite += std::isfinite(value[0] + value[1] + value[2] + value[3] + value[4]) ? 0 : 1;
   }
-  for (const auto& load : out.loads)
-    for (int i = 0; i < 3; ++i) {
-      buffer.push_back(load.force[i]);
-      buffer.push_back(load.moment[i]);
-    }
-  comm_.sum(buffer);
-  out.density_residual = std::sqrt(buffer[0] / static_cast<Real>(discretization_.domain().global_cells));
-  out.physical = buffer[1] == 0 && std::isfinite(buffer[0]);
-  out.fallback_faces = static_cast<GlobalIndex>(buffer[2]);
-  auto next = buffer.begin() + 3;
-  for (auto& load : out.loads) {
-    for (int i = 0; i < 3; ++i) {
-      load.force[i] = *next++;
-      load.moment[i] = *next++;
-    }
-    out.total += load;
-  }
+  auto numbers = numbers_of(wall_loads(discretization_, residual_, moment_center_));
+  const std::size_t of_loads = numbers.size();
+  numbers.insert(numbers.end(), {square, not_finite, static_cast<Real>(residual_.fallback_faces())});
+  sum(numbers);
+  FlowReport out;
+  out.loads = loads_of(std::span(numbers).first(of_loads));
+  out.total = total_of(out.loads);
+  square = numbers[of_loads];
+  not_finite = numbers[of_loads + 1];
+  out.density_residual = std::sqrt(square / static_cast<Real>(discretization_.domain().global_cells));
+  out.physical = not_finite == 0 && std::isfinite(square);
+  out.fallback_faces = static_cast<GlobalIndex>(numbers[of_loads + 2]);
   return out;
 }
 

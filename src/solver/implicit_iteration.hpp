@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <functional>
 #include <memory>
 #include <span>
 #include <vector>
@@ -20,6 +21,13 @@ struct FlowReport {
   Load total;                 ///< their sum
   GlobalIndex fallback_faces = 0;
   bool physical = true;  ///< every residual is finite
+};
+
+/// Numbers of somebody else that travel with the sum of every report, so that it stays the only all-reduce of
+/// an iteration: what each rank puts in, and who hears the sums over all ranks.
+struct Passengers {
+  std::function<std::vector<Real>()> of_this_rank;
+  std::function<void(std::span<const Real>)> hear;
 };
 
 /// A cell in which the flow goes wrong.
@@ -55,6 +63,9 @@ class ImplicitIteration {
   void evaluate(const Conditions<Real>& conditions, int order);
   /// Norm, loads and flags of the latest evaluation: one all-reduce.
   FlowReport report() const;
+  /// Sums `numbers` over all ranks in one all-reduce, which takes the passengers along.
+  void sum(std::vector<Real>& numbers) const;
+  void take_along(Passengers passengers) { passengers_ = std::move(passengers); }
   /// The cells of all ranks in which the latest residual is not finite or else makes the density change most,
   /// worst first. Collective.
   std::vector<SuspectCell> worst_cells(std::size_t count) const;
@@ -79,6 +90,7 @@ class ImplicitIteration {
   const Communicator& comm_;
   std::unique_ptr<LinearSolver> solver_;
   Vec3 moment_center_;
+  Passengers passengers_{[] { return std::vector<Real>{}; }, [](auto) {}};
   FlowField<Real> flow_;
   Residual<Real> residual_;
   std::vector<Conserved<Real>> values_;      // [owned_cells]

@@ -26,11 +26,11 @@ void for_chunks(std::size_t cells, Work&& work) {
 
 }  // namespace
 
-Real norm(std::span<const Primitive<Real>> vector, const Communicator& comm) {
+Real square(std::span<const Primitive<Real>> vector) {
   Real sum = 0;
   for (const auto& value : vector)
     for (int k = 0; k < 5; ++k) sum += value[k] * value[k];
-  return std::sqrt(comm.sum(sum));
+  return sum;
 }
 
 SearchSpace::SearchSpace(std::size_t cells, int capacity, const Communicator& comm)
@@ -53,7 +53,7 @@ std::vector<Real> SearchSpace::products(std::size_t first, std::span<const Primi
 
 void SearchSpace::add(std::span<Primitive<Real>> direction, std::span<Primitive<Real>> image,
                       std::vector<Real> functionals) {
-  const Real whole = norm(image, comm_);
+  const Real whole = std::sqrt(comm_.sum(square(image)));
   Real left = whole;
   for (int pass = 0; pass < 2; ++pass) {
     const Real before = left;
@@ -69,7 +69,7 @@ void SearchSpace::add(std::span<Primitive<Real>> direction, std::span<Primitive<
     for (std::size_t j = 0; j < directions_.size(); ++j)
       for (std::size_t i = 0; i < functionals.size(); ++i)
         functionals[i] -= factors[j] * directions_[j].functionals[i];
-    left = norm(image, comm_);
+    left = std::sqrt(comm_.sum(square(image)));
     if (left > largest_cancellation * before) break;
   }
   if (!(left > nothing_left * whole)) return;

@@ -46,7 +46,7 @@ class SearchSpace {
   std::vector<Direction> directions_;
 };
 
-/// Euclidean norm over all ranks. Collective.
-Real norm(std::span<const Primitive<Real>> vector, const Communicator& comm);
+/// Square of the Euclidean norm of this rank's part.
+Real square(std::span<const Primitive<Real>> vector);
 
 }  // namespace alphadot

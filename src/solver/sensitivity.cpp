@@ -31,31 +31,6 @@ void add_mass_term(const ImplicitIteration& iteration, std::span<const Primitive
   }
 }
 
-/// Forces and moments of all patches as plain numbers.
-std::vector<Real> numbers_of(const std::vector<Load>& loads) {
-  std::vector<Real> out;
-  for (const Load& load : loads)
-    for (int i = 0; i < 3; ++i) out.insert(out.end(), {load.force[i], load.moment[i]});
-  return out;
-}
-
-std::vector<Load> loads_of(std::span<const Real> numbers) {
-  std::vector<Load> out(numbers.size() / 6);
-  auto next = numbers.begin();
-  for (Load& load : out)
-    for (int i = 0; i < 3; ++i) {
-      load.force[i] = *next++;
-      load.moment[i] = *next++;
-    }
-  return out;
-}
-
-Load sum_of(const std::vector<Load>& loads) {
-  Load out;
-  for (const Load& load : loads) out += load;
-  return out;
-}
-
 Load magnitude(const Load& load) {
   Load out;
   for (int i = 0; i < 3; ++i) {
@@ -142,12 +117,15 @@ class Lockstep {
       if (!problems_[k].rate.empty()) add_mass_term(iteration_, problems_[k].rate, images_[k]);
     precondition(corrections_);
     const auto loads = tangent_.loads();
-    for (std::size_t k = 0; k < N; ++k) take(k, numbers_of(loads[k]));
+    for (std::size_t k = 0; k < N; ++k) records_[k].loads.push_back(numbers_of(loads[k]));
+    record_norms();
   }
 
-  void take(std::size_t k, std::vector<Real> loads) {
-    records_[k].loads.push_back(std::move(loads));
-    records_[k].norms.push_back(norm(corrections_[k], comm_));
+  void record_norms() {
+    std::vector<Real> squares;
+    for (const auto& correction : corrections_) squares.push_back(square(correction));
+    iteration_.sum(squares);
+    for (std::size_t k = 0; k < N; ++k) records_[k].norms.push_back(std::sqrt(squares[k]));
   }
 
   typename Tangent<N>::Images spans() {
@@ -233,8 +211,9 @@ class Lockstep {
     for (std::size_t k = 0; k < N; ++k) {
       auto loads = records_[k].loads.back();
       space_.reduce(first, corrections_[k], results_[k].field, loads);
-      take(k, std::move(loads));
+      records_[k].loads.push_back(std::move(loads));
     }
+    record_norms();
   }
 
   void finish(Sensitivity& result, Record& record) const {
@@ -242,7 +221,7 @@ class Lockstep {
     for (auto& loads : record.loads) {
       comm_.sum(loads);
       result.loads = loads_of(loads);
-      totals.push_back(sum_of(result.loads));
+      totals.push_back(total_of(result.loads));
     }
     result.total = totals.back();
     result.total_error = remaining_error(record, totals);

@@ -1,0 +1,112 @@
+// How often the ranks wait for each other: the all-reduces that this program makes, counted between it and
+// the MPI library. Expectations: the design, one for each residual that a driver looks at and none below it.
+#include <gtest/gtest.h>
+#include <mpi.h>
+
+#include <memory>
+#include <vector>
+
+#include "moving_box.hpp"
+#include "ramp.hpp"
+#include "solver/sensitivity.hpp"
+#include "steady_flow.hpp"
+
+namespace {
+int reductions = 0;
+}
+
+/// Takes the place of the library's function, which has this second name for the purpose.
+extern "C" int MPI_Allreduce(const void* send, void* receive, int count, MPI_Datatype type, MPI_Op op,
+                             MPI_Comm comm) {
+  ++reductions;
+  return PMPI_Allreduce(send, receive, count, type, op, comm);
+}
+
+namespace alphadot {
+namespace {
+
+using namespace testing_support;
+
+template <class Work>
+int reductions_of(const Work& work) {
+  const int before = reductions;
+  work();
+  return reductions - before;
+}
+
+class ReductionsTest : public testing::Test {
+ protected:
+  const Communicator comm;
+  const BoxCase box{ramp_mesh(6), ramp_sides(), {}, comm};
+};
+
+TEST_F(ReductionsTest, AreCounted) {
+  EXPECT_EQ(reductions_of([&] { comm.sum(Real{1}); }), 1);
+}
+
+TEST_F(ReductionsTest, AreNotInResidualLinearisationAndSweeps) {
+  const auto conditions = ramp_conditions();
+  SteadyFlow steady(box, conditions, 1);
+  EXPECT_EQ(reductions_of([&] {
+              steady.iteration.evaluate(conditions, 2);
+              steady.iteration.linearise(conditions, {.cfl = 10});
+              steady.iteration.advance();
+            }),
+            0);
+}
+
+// Passengers are heard in the same iteration, on every rank.
+TEST_F(ReductionsTest, AreOneInASteadyIterationWithItsPassengers) {
+  const auto conditions = ramp_conditions();
+  ImplicitIteration iteration(box.discretization, comm,
+                              std::make_unique<BlockLuSgs>(box.discretization, comm, 2), {});
+  iteration.set_uniform(conditions.free_stream);
+  Real asked = 0, heard = -1;
+  iteration.take_along(
+      {[&] { return std::vector<Real>{asked}; }, [&](std::span<const Real> sums) { heard = sums[0]; }});
+  int before = 0;
+  const auto observe = [&](const SteadyProgress& p) {
+    if (p.iteration > 1) {
+      EXPECT_EQ(reductions - before, 1) << "iteration " << p.iteration;
+      EXPECT_EQ(heard, asked * comm.size());
+    }
+    before = reductions;
+    asked = p.iteration;
+    return true;
+  };
+  SteadySettings settings;
+  settings.max_iterations = 10;
+  const auto result = march_to_steady(iteration, conditions, settings, 2, observe);
+  EXPECT_EQ(result.iterations, 10);
+}
+
+TEST_F(ReductionsTest, AreOneInAnInnerIteration) {
+  const Motion motion = box_motion(MotionKind::plunge);
+  MovingBox moving(channel(), {}, motion, TreatmentKind::field_velocity, motion.period() / 16);
+  moving.start();
+  StepReport step;
+  EXPECT_EQ(reductions_of([&] { step = moving.advance(6); }), 7);  // one residual more than inner iterations
+  EXPECT_EQ(step.inner_iterations, 6);
+}
+
+// A march of linear problems: one all-reduce an iteration for any number of them; at the end, one for the
+// loads at all iterations of each.
+TEST_F(ReductionsTest, AreOneInAnIterationOfLinearProblems) {
+  const auto conditions = ramp_conditions();
+  SteadyFlow steady(box, conditions, 6);
+  const DerivativeSettings settings{.method = SensitivityMethod::march, .orders = 30, .max_iterations = 5};
+  int before = 0;
+  const auto go_on = [&] {
+    if (before > 0) {
+      EXPECT_EQ(reductions - before, 1);
+    }
+    before = reductions;
+    return true;
+  };
+  SensitivitySolver(steady.iteration, conditions, settings, go_on)
+      .solve({{"mach", {{1, 0, 0}, {}, {}}}, {"alpha", {{0, 0, 1}, {}, {}}}});
+  EXPECT_GT(before, 0);
+}
+
+}  // namespace
+}  // namespace alphadot
