@@ -54,6 +54,7 @@ Json json_of(const Result& r) {
         {"cpu_s", performance.cpu_s},
         {"steady_wall_s", performance.steady_wall_s},
         {"steady_cpu_s", performance.steady_cpu_s},
+        {"motion_cpu_s", performance.motion_cpu_s},
         {"iterations", performance.iterations},
         {"core_us_per_cell_iteration", performance.core_us_per_cell_iteration},
         {"bytes_per_cell", performance.bytes_per_cell},

@@ -30,6 +30,7 @@ struct PerformanceResult {
   Real cpu_s = not_measured;  ///< over all ranks
   Real steady_wall_s = not_measured,
        steady_cpu_s = not_measured;  ///< of these, the march to the steady state
+  Real motion_cpu_s = not_measured;  ///< of these, the march along the motion
   std::int64_t iterations = 0;
   Real core_us_per_cell_iteration = not_measured;
   Real bytes_per_cell = not_measured;          ///< of the solver's and the mesh's arrays

@@ -10,6 +10,7 @@
 #include "app/watchdog.hpp"
 #include "core/error.hpp"
 #include "core/log.hpp"
+#include "core/timer.hpp"
 #include "io/history.hpp"
 #include "solver/dual_time.hpp"
 
@@ -121,10 +122,13 @@ RunStatus run_verb(const CaseArguments& arguments, const Communicator& comm) {
   History history(history_info(flow.settings(), flow.setup().mesh.hash));
   Extraction extraction;
   RunStatus status = RunStatus::error;
+  Real motion_cpu = not_measured;
   try {
     status = flow.march();
     if (status != RunStatus::interrupted && flow.settings().motion.kind != MotionKind::none) {
+      const Timer timer;
       status = follow_motion(flow, history);
+      motion_cpu = timer.cpu();
       if (status == RunStatus::completed) extraction = extract(flow, history);
     }
   } catch (const DivergedError& error) {
@@ -134,7 +138,8 @@ RunStatus run_verb(const CaseArguments& arguments, const Communicator& comm) {
 
   if (history.steps() > 0) comm.on_root([&] { write_history(flow.folder(), history); });
   const auto rows = rows_of(extraction.derivatives, extraction.method);
-  const Result result = flow.result(status, rows);
+  Result result = flow.result(status, rows);
+  result.performance.motion_cpu_s = comm.sum(motion_cpu);
   flow.write(result);
   flow.print(result, rows);
   return status;

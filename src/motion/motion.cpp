@@ -183,22 +183,4 @@ Attitude Motion::at(Real time) const {
   return out;
 }
 
-Vec3 Motion::travel(Real time) const {
-  // Gauss's five points a panel; sixteen panels a period, or 64 over the time, are exact to round-off for
-  // smooth motions.
-  constexpr Real nodes[] = {0, 0.5384693101056831, 0.9061798459386640};
-  constexpr Real weights[] = {128.0 / 225, 0.4786286704993665, 0.2369268850561891};
-  const int panels = is_harmonic() ? 1 + static_cast<int>(16 * time / period()) : 64;
-  const Real half = time / (2 * panels);
-  Vec3 sum;
-  for (int panel = 0; panel < panels && time > 0; ++panel) {
-    const Real middle = (2 * panel + 1) * half;
-    sum += half * weights[0] * at(middle).velocity;
-    for (int i = 1; i < 3; ++i)
-      sum +=
-          half * weights[i] * (at(middle - half * nodes[i]).velocity + at(middle + half * nodes[i]).velocity);
-  }
-  return sum;
-}
-
 }  // namespace alphadot

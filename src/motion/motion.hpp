@@ -43,8 +43,6 @@ class Motion {
          MotionTable table = {});
 
   Attitude at(Real time) const;
-  /// How far the axis point has moved since t = 0: the integral of its velocity.
-  Vec3 travel(Real time) const;
   /// Velocity of the undisturbed air in mesh axes at rest.
   Vec3 wind() const { return wind_; }
   /// Rotation of the axes in steady flight, rad per unit of time: settings.rotation = (p*, q*, r*) in mesh

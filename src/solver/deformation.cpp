@@ -2,70 +2,33 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "core/error.hpp"
 #include "partition/geometry.hpp"
-#include "solver/nearest_point.hpp"
+#include "solver/influence.hpp"
 
 namespace alphadot {
 
 namespace {
 
-/// Points of the boundary faces that `wanted` holds for, of all ranks.
-template <class Wanted>
-std::vector<Vec3> boundary_points(const Subdomain& domain, const Communicator& comm, Wanted&& wanted) {
-  std::vector<Index> own;
-  for (const auto& face : domain.boundary_faces)
-    if (wanted(face)) own.insert(own.end(), face.points.begin(), face.points.end());
-  std::ranges::sort(own);
-  own.erase(std::ranges::unique(own).begin(), own.end());
-
-  // Each rank fills its part of an array of zeros; the sum is the whole.
-  std::vector<GlobalIndex> counts(static_cast<std::size_t>(comm.size()), 0);
-  counts[static_cast<std::size_t>(comm.rank())] = static_cast<GlobalIndex>(own.size());
-  comm.sum(std::span<GlobalIndex>(counts));
-  std::size_t begin = 0, total = 0;
-  for (int rank = 0; rank < comm.size(); ++rank) {
-    if (rank == comm.rank()) begin = total;
-    total += static_cast<std::size_t>(counts[static_cast<std::size_t>(rank)]);
-  }
-  std::vector<Real> buffer(3 * total, 0);
-  for (std::size_t i = 0; i < own.size(); ++i)
-    for (int axis = 0; axis < 3; ++axis)
-      buffer[3 * (begin + i) + static_cast<std::size_t>(axis)] = domain.points[own[i]][axis];
-  comm.sum(std::span<Real>(buffer));
-  std::vector<Vec3> out(total);
-  for (std::size_t i = 0; i < total; ++i) out[i] = {buffer[3 * i], buffer[3 * i + 1], buffer[3 * i + 2]};
-  return out;
-}
-
-/// 1 below a tenth of the way, 0 above nine tenths, a polynomial with two continuous derivatives between.
+/// 1 over the first tenth of the way, where shocks are smeared, 0 at its end, two continuous derivatives
+/// between.
 Real blend(Real way) {
-  const Real s = std::clamp((way - 0.1) / 0.8, Real{0}, Real{1});
+  const Real s = std::clamp((way - 0.1) / 0.9, Real{0}, Real{1});
   return 1 - s * s * s * (10 - s * (15 - 6 * s));
 }
 
 }  // namespace
 
-std::vector<Real> follow_shares(const Subdomain& domain, const Discretization& discretization,
+std::vector<Real> follow_shares(const Discretization& discretization, const Vec3& wind,
                                 const Communicator& comm) {
-  const NearestPoint body(boundary_points(domain, comm, [&](const BoundaryFace& face) {
-    const auto kind = discretization.kind_of(face);
-    return kind == BoundaryKind::wall || kind == BoundaryKind::sting || kind == BoundaryKind::jet;
-  }));
-  const NearestPoint far(boundary_points(domain, comm, [&](const BoundaryFace& face) {
-    return discretization.kind_of(face) == BoundaryKind::farfield;
-  }));
-  std::vector<Real> out(domain.points.size());
-  for (std::size_t point = 0; point < out.size(); ++point) {
-    const Real to_body = body.distance(domain.points[point]), to_far = far.distance(domain.points[point]);
-    // Without a body everything rests, without a far field everything moves; where they meet it rests.
-    const Real way = to_far == 0 || std::isinf(to_body) ? 1
-                     : std::isinf(to_far)               ? 0
-                                                        : to_body / (to_body + to_far);
-    out[point] = blend(way);
-  }
+  const Influence influence(discretization, wind, comm);
+  const auto& points = discretization.domain().points;
+  std::vector<Real> out(points.size());
+  for (std::size_t point = 0; point < out.size(); ++point) out[point] = influence.distance(points[point]);
+  const Real farthest = comm.max(out.empty() ? 0 : std::ranges::max(out));
+  const Real room = std::max(farthest, influence.body_size());
+  for (Real& share : out) share = blend(share / room);
   return out;
 }
 
@@ -87,11 +50,11 @@ DeformingGrid::DeformingGrid(const Motion& motion, const Vec3& axis_point, Real 
                              Discretization& discretization, const Communicator& comm)
     : MovingGrid(motion, axis_point, time_step, domain, discretization),
       comm_(comm),
-      share_(follow_shares(domain, discretization, comm)),
+      share_(follow_shares(discretization, motion.wind(), comm)),
       volumes_{domain.volume, domain.volume, domain.volume},
       speeds_{std::vector<Real>(domain.faces.size()), std::vector<Real>(domain.boundary_faces.size())} {}
 
-std::vector<Vec3> DeformingGrid::points_at(int step) const {
+std::vector<Vec3> DeformingGrid::points_at(int step) {
   const BodyPlace body = place(step);
   std::vector<Vec3> out(rest_.size());
   for (std::size_t point = 0; point < out.size(); ++point)

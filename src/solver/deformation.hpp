@@ -1,4 +1,4 @@
-// A grid that follows the body near it and rests at the far field.
+// A grid that follows the body where the flow is disturbed and comes to rest outside.
 #pragma once
 
 #include <array>
@@ -8,20 +8,22 @@
 
 namespace alphadot {
 
-/// Share of the body's displacement that each point of the domain takes part in: 1 on the body, 0 at the far
-/// field, and in between a smooth function of r = d_body / (d_body + d_far), the distances being to the
-/// nearest point of either: inverse-distance weighting by the nearest points alone. Cells near the body move
-/// as a rigid whole. Symmetry planes take part like the interior. Collective.
-std::vector<Real> follow_shares(const Subdomain& domain, const Discretization& discretization,
+/// Share of the body's displacement that each point of the domain takes part in: 1 where the body disturbs
+/// the flow, the boundary included; from there it falls smoothly with the distance, over a length that is the
+/// larger of the body's size and the farthest distance that the domain has, where it is 0. Cells then deform
+/// in the undisturbed stream only, and there a deformation that conserves the stream makes no error, while an
+/// error in the disturbed flow is one in the loads: in phase with the travel, that is with the rate of the
+/// incidence, it would enter its derivative divided by k. Collective.
+std::vector<Real> follow_shares(const Discretization& discretization, const Vec3& wind,
                                 const Communicator& comm);
 
 /// The volume that a triangle sweeps while its corners go straight from one place to another, positive along
 /// its normal. Exact, so that over a closed cell the sum is the change of the cell's volume to round-off.
 Real swept_volume(const std::array<Vec3, 3>& from, const std::array<Vec3, 3>& to);
 
-/// Outer boundary fixed, inner grid with the body. Grid speeds are the swept volumes of the last two steps,
-/// weighted as the time scheme weights its levels: with V0 U0, V1 U1, V2 U2 in the time derivative a uniform
-/// flow is kept to round-off (discrete geometric conservation law; Lesoinne & Farhat 1996).
+/// Disturbed flow with the body, the far stream at rest. Grid speeds are the swept volumes of the last two
+/// steps, weighted as the time scheme weights its levels: with V0 U0, V1 U1, V2 U2 in the time derivative a
+/// uniform flow is kept to round-off (discrete geometric conservation law; Lesoinne & Farhat 1996).
 class DeformingGrid final : public MovingGrid {
  public:
   DeformingGrid(const Motion& motion, const Vec3& axis_point, Real time_step, Subdomain& domain,
@@ -34,7 +36,7 @@ class DeformingGrid final : public MovingGrid {
   }
 
  private:
-  std::vector<Vec3> points_at(int step) const;
+  std::vector<Vec3> points_at(int step);
   void find_speeds(int step, const std::array<std::vector<Vec3>, 3>& points);
 
   const Communicator& comm_;

@@ -14,10 +14,17 @@ MovingGrid::MovingGrid(const Motion& motion, const Vec3& axis_point, Real time_s
       rest_(domain.points),
       now_{axis_point, {}, {}} {}
 
-BodyPlace MovingGrid::place(int step) const {
+BodyPlace MovingGrid::place(int step) {
   if (step <= 0) return {axis_point_, {}, {}};
-  const Real time = step * time_step_;
-  return {axis_point_, motion_.travel(time), motion_.at(time).angle};
+  while (static_cast<int>(travel_.size()) <= step) {
+    const auto level = static_cast<int>(travel_.size());
+    const TimeWeights weight = time_weights(level, time_step_);
+    const Vec3 older = level > 1 ? *(travel_.end() - 2) : Vec3{};
+    travel_.push_back(
+        1 / weight.now *
+        (motion_.at(level * time_step_).velocity - weight.old * travel_.back() - weight.older * older));
+  }
+  return {axis_point_, travel_[static_cast<std::size_t>(step)], motion_.at(step * time_step_).angle};
 }
 
 void MovingGrid::renew_geometry() {

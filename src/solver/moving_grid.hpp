@@ -25,8 +25,10 @@ class MovingGrid : public Treatment {
   Load on_body(const Load& load, const Vec3& center) const override;
 
  protected:
-  /// The body is at rest up to level 0.
-  BodyPlace place(int step) const;
+  /// The body is at rest up to level 0. From there on it travels by the time scheme's own integral of its
+  /// velocity, so that the difference of places which the scheme takes is the velocity and not an
+  /// approximation of second order: in a uniform stream the velocity acts on the flow, the place does not.
+  BodyPlace place(int step);
   /// Lets metrics and reconstruction follow the points of the domain.
   void renew_geometry();
 
@@ -35,7 +37,8 @@ class MovingGrid : public Treatment {
   Real time_step_;
   Subdomain& domain_;
   Discretization& discretization_;
-  std::vector<Vec3> rest_;  // [points] before the motion
+  std::vector<Vec3> rest_;       // [points] before the motion
+  std::vector<Vec3> travel_{1};  // [levels] of the axis point, as far as it was asked for
   BodyPlace now_;
 };
 

@@ -9,6 +9,7 @@
 #include "moving_box.hpp"
 #include "partition/geometry.hpp"
 #include "solver/deformation.hpp"
+#include "solver/influence.hpp"
 
 namespace alphadot {
 namespace {
@@ -19,11 +20,11 @@ constexpr MotionKind all_motions[] = {MotionKind::plunge,     MotionKind::sway, 
                                       MotionKind::yaw,        MotionKind::roll,       MotionKind::flap,
                                       MotionKind::step_alpha, MotionKind::ramp_alpha, MotionKind::step_q};
 
-/// Open all around; the face z_min counts as the body that a deforming grid follows, though nothing is
+/// Open all around; the face x_max counts as the body that a deforming grid follows, though nothing is
 /// imposed there but the stream.
 BoxSides open_box_with_body() {
   BoxSides sides = open_box();
-  sides[4] = BoundaryKind::jet;
+  sides[1] = BoundaryKind::jet;
   return sides;
 }
 
@@ -52,14 +53,16 @@ TEST_P(EveryMotion, KeepsTheFreeStream) {
   }
 }
 
-/// Largest relative difference of the loads, over some steps from a wavy flow, between a field velocity and a
-/// rigid grid.
-Real difference_of_treatments(MotionKind kind, LimiterKind limiter) {
+/// Largest relative difference of the loads, over some steps from a wavy flow, between a field velocity and
+/// another treatment. The face x_min counts as body, so that all of the box is downstream of it.
+Real difference_of_treatments(MotionKind kind, LimiterKind limiter,
+                              TreatmentKind treatment = TreatmentKind::rigid_grid) {
   const Motion motion = box_motion(kind);
   // The march converges the moment that the motion drives: there must be one.
-  const auto sides = box_with_wall(motion.moment_axis() == 2 ? 2 : 4);
+  auto sides = box_with_wall(motion.moment_axis() == 2 ? 2 : 4);
+  sides[0] = BoundaryKind::jet;
   MovingBox still(sides, {.limiter = limiter}, motion, TreatmentKind::field_velocity, 0.05);
-  MovingBox moving(sides, {.limiter = limiter}, motion, TreatmentKind::rigid_grid, 0.05);
+  MovingBox moving(sides, {.limiter = limiter}, motion, treatment, 0.05);
   Real worst = 0;
   for (MovingBox* box : {&still, &moving}) {
     fill(box->iteration.flow(), box->domain, [](const Vec3& x, GlobalIndex) { return wavy_state(x); });
@@ -76,6 +79,14 @@ TEST(FieldVelocity, IsARigidGridInTranslation) {
   EXPECT_LT(difference_of_treatments(MotionKind::plunge, LimiterKind::venkatakrishnan), 1e-10);
   EXPECT_LT(difference_of_treatments(MotionKind::sway, LimiterKind::venkatakrishnan), 1e-10);
   EXPECT_LT(difference_of_treatments(MotionKind::step_alpha, LimiterKind::venkatakrishnan), 1e-10);
+}
+
+// Where the body disturbs everything the grid moves as a whole, and the difference of its places that the
+// time scheme takes is the velocity itself.
+TEST(FieldVelocity, IsADeformingGridInTranslation) {
+  for (const auto kind : {MotionKind::plunge, MotionKind::sway, MotionKind::step_alpha})
+    EXPECT_LT(difference_of_treatments(kind, LimiterKind::venkatakrishnan, TreatmentKind::deforming_grid),
+              1e-10);
 }
 
 // A limiter of velocity components depends on the axes they are taken along; without one nothing does.
@@ -135,23 +146,39 @@ TEST(SweptVolume, IsTheChangeOfTheVolumeOfATetrahedron) {
   EXPECT_NEAR(sum, tetrahedron_metrics(to, ids).volume - tetrahedron_metrics(from, ids).volume, 1e-15);
 }
 
-// The body's points go with it, those of the far field stay, and cells keep their orientation.
-TEST(DeformingGrid, FollowsTheBodyAndRestsFarAway) {
+// A disc across the wind, of Mach 2 and 0.5: the tangent of the cone's half-angle is 1.25 / sqrt(3), and it
+// touches the corners of the face x_max, sqrt(0.61) from its centre (1, 0.6, 2.5).
+TEST(Influence, IsAConeAlongTheWindOrABall) {
+  const Communicator comm;
+  const BoxCase box(small_box(), open_box_with_body(), {}, comm);
+  const Real radius = std::sqrt(0.61), tangent = 1.25 / std::sqrt(3.0), sine = std::sin(std::atan(tangent));
+  const Influence cone(box.discretization, {2, 0, 0}, comm), ball(box.discretization, {0.5, 0, 0}, comm);
+  EXPECT_NEAR(cone.body_size(), 2 * radius, 1e-12);
+  EXPECT_NEAR(cone.distance({-2, 0.6, 2.5}), 3 - radius / tangent, 1e-12);
+  EXPECT_NEAR(cone.distance({1, 0.6, 2.5 + radius + 0.1 / std::sqrt(1 - sine * sine)}), 0.1, 1e-12);
+  EXPECT_EQ(cone.distance({9, 0.6, 2.5 + radius + 7.9 * tangent}), 0);
+  EXPECT_NEAR(ball.distance({-2, 0.6, 2.5}), 3 - radius, 1e-12);
+  EXPECT_EQ(ball.distance({1, 0.6, 2.6}), 0);
+}
+
+// The body's points go with it, the farthest nearly stay, for the box is a little shorter than the body is
+// wide, and cells keep their orientation.
+TEST(DeformingGrid, FollowsTheBodyAndLagsFarAway) {
   const Motion motion = box_motion(MotionKind::pitch);
   MovingBox box(open_box_with_body(), {}, motion, TreatmentKind::deforming_grid, 0.15);
   const auto rest = box.domain.points;
+  const auto share = follow_shares(box.discretization, motion.wind(), box.comm);
+  EXPECT_LT(box.comm.min(std::ranges::min(share)), 0.1);
   box.start();
   const StepReport step = box.advance(1);
-  for (const auto& face : box.domain.boundary_faces)
-    for (const Index point : face.points) {
-      const Vec3 moved = box.domain.points[static_cast<std::size_t>(point)],
-                 before = rest[static_cast<std::size_t>(point)];
-      const bool on_body = before.z == 2, on_edge = before.x == -1 || before.x == 1 || before.y == 0 ||
-                                                    before.y == 1.2 || before.z == 3;
-      if (on_body && on_edge) continue;
-      const Vec3 carried = box_axis_point + on_turned_axes(before - box_axis_point, -step.attitude.angle);
-      EXPECT_NEAR(norm(moved - (on_body ? carried : before)), 0, 1e-14);
+  for (std::size_t point = 0; point < rest.size(); ++point) {
+    const Vec3 carried = box_axis_point + on_turned_axes(rest[point] - box_axis_point, -step.attitude.angle);
+    const Vec3 expected = rest[point] + share[point] * (carried - rest[point]);
+    EXPECT_NEAR(norm(box.domain.points[point] - expected), 0, 1e-14);
+    if (rest[point].x == 1) {
+      EXPECT_EQ(share[point], 1);
     }
+  }
   EXPECT_NO_THROW(box.domain.validate());
 }
 
