@@ -190,9 +190,9 @@ RunStatus FlowCase::march() {
   steady_cpu_ = timer.cpu();
   steady_report_ = result.report;
   if (result.status == RunStatus::interrupted) message_ = checkpoints_.stop_reason();
-  if (result.report.fallback_faces > 0)
-    spdlog::info("{} faces fall back to first order to keep density and pressure positive",
-                 result.report.fallback_faces);
+  if (result.report.limited_faces > 0)
+    spdlog::info("{} faces fall back towards first order to keep density and pressure positive",
+                 result.report.limited_faces);
   if (result.status == RunStatus::diverged)
     throw DivergedError("the steady march found no CFL number that holds");
   if (result.status == RunStatus::completed) {

@@ -48,6 +48,14 @@ struct Conditions {
   }
 };
 
+/// What a cell gains per unit volume, as an outflow, from axes that turn: rho rotation x (u - turning stream)
+/// and the work of that, none while the turning stream is zero.
+template <class T>
+Conserved<T> turning_source(const Primitive<T>& w, const Conditions<T>& conditions) {
+  const auto turn = w[0] * cross(conditions.grid.rotation, velocity(w) - conditions.turning_stream);
+  return {{T(0), turn.x, turn.y, turn.z, dot(velocity(w), turn)}};
+}
+
 /// Conditions of the field velocity approach: a still mesh, everything along body axes.
 inline Conditions<Real> field_velocity_conditions(const Attitude& attitude, const Vec3& wind,
                                                   const Vec3& axis_point, Real gamma) {

@@ -1,7 +1,5 @@
 #include "solver/forces.hpp"
 
-#include "core/dual.hpp"
-
 namespace alphadot {
 
 std::vector<Real> numbers_of(std::span<const Load> loads) {
@@ -25,28 +23,24 @@ Load total_of(std::span<const Load> loads) {
   return out;
 }
 
-template <class T>
-std::vector<LoadOf<T>> wall_loads(const Discretization& discretization, const Residual<T>& residual,
-                                  const Vec3& center) {
+std::vector<Load> wall_loads(const Discretization& discretization, std::span<const Real> excess_pressures,
+                             const Vec3& center) {
   const Subdomain& domain = discretization.domain();
-  const Real free_stream_pressure = 1 / discretization.gamma();
-  std::vector<LoadOf<T>> loads(domain.patch_names.size());
+  std::vector<Load> loads(domain.patch_names.size());
   for (std::size_t i = 0; i < domain.boundary_faces.size(); ++i) {
     const auto& face = domain.boundary_faces[i];
     if (discretization.kind_of(face) != BoundaryKind::wall) continue;
-    const Vec3 at = domain.boundary_center[i];
-    const auto force = (residual.boundary_pressures()[i] - free_stream_pressure) * domain.boundary_normal[i];
-    loads[face.patch] += LoadOf<T>{force, cross(at - center, force)};
+    const Vec3 force = excess_pressures[i] * domain.boundary_normal[i];
+    loads[face.patch] += Load{force, cross(domain.boundary_center[i] - center, force)};
   }
   return loads;
 }
 
-template std::vector<Load> wall_loads(const Discretization&, const Residual<Real>&, const Vec3&);
-template std::vector<LoadOf<Dual<1>>> wall_loads(const Discretization&, const Residual<Dual<1>>&,
-                                                 const Vec3&);
-template std::vector<LoadOf<Dual<2>>> wall_loads(const Discretization&, const Residual<Dual<2>>&,
-                                                 const Vec3&);
-template std::vector<LoadOf<Dual<3>>> wall_loads(const Discretization&, const Residual<Dual<3>>&,
-                                                 const Vec3&);
+std::vector<Load> wall_loads(const Discretization& discretization, const Residual<Real>& residual,
+                             const Vec3& center) {
+  std::vector<Real> excess(residual.boundary_pressures().begin(), residual.boundary_pressures().end());
+  for (Real& pressure : excess) pressure -= 1 / discretization.gamma();
+  return wall_loads(discretization, excess, center);
+}
 
 }  // namespace alphadot

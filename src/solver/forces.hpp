@@ -9,21 +9,17 @@
 namespace alphadot {
 
 /// Force and moment of one patch, in units of rho_inf a_inf^2 times length^2 (^3), along mesh axes.
-template <class T>
-struct LoadOf {
-  Vec3Of<T> force, moment;
+struct Load {
+  Vec3 force, moment;
 
-  LoadOf& operator+=(const LoadOf& b) {
+  Load& operator+=(const Load& b) {
     force += b.force;
     moment += b.moment;
     return *this;
   }
-  friend LoadOf operator-(const LoadOf& a, const LoadOf& b) {
-    return {a.force - b.force, a.moment - b.moment};
-  }
-  friend LoadOf operator*(Real s, const LoadOf& a) { return {s * a.force, s * a.moment}; }
+  friend Load operator-(const Load& a, const Load& b) { return {a.force - b.force, a.moment - b.moment}; }
+  friend Load operator*(Real s, const Load& a) { return {s * a.force, s * a.moment}; }
 };
-using Load = LoadOf<Real>;
 
 /// Loads as six numbers each - force, then moment - for sums over ranks and for files.
 std::vector<Real> numbers_of(std::span<const Load> loads);
@@ -34,8 +30,10 @@ Load total_of(std::span<const Load> loads);
 /// Load of every patch that is a wall (zero for others): integral of (p - p_inf) n, moments about `center`,
 /// with the pressures of the latest evaluation.
 /// Summed over this rank only; the sum over ranks is the caller's, together with its other numbers.
-template <class T>
-std::vector<LoadOf<T>> wall_loads(const Discretization& discretization, const Residual<T>& residual,
-                                  const Vec3& center);
+std::vector<Load> wall_loads(const Discretization& discretization, const Residual<Real>& residual,
+                             const Vec3& center);
+/// The same of pressures above that of the free stream, [boundary_faces].
+std::vector<Load> wall_loads(const Discretization& discretization, std::span<const Real> excess_pressures,
+                             const Vec3& center);
 
 }  // namespace alphadot

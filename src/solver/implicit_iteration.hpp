@@ -19,7 +19,7 @@ struct FlowReport {
   Real density_residual = 0;  ///< root of the mean square over all cells of the net mass outflow
   std::vector<Load> loads;    ///< of every patch
   Load total;                 ///< their sum
-  GlobalIndex fallback_faces = 0;
+  GlobalIndex limited_faces = 0;
   bool physical = true;  ///< every residual is finite
 };
 

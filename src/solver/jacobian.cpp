@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <vector>
 
-#include "core/dual.hpp"
 #include "euler/boundary.hpp"
+#include "euler/independent.hpp"
 #include "solver/wave_speed.hpp"
 
 namespace alphadot {
@@ -26,19 +26,6 @@ void store_derivative(Block& block, const Flux& flux, Real area) {
   for (int column = 0; column < 5; ++column)
     for (int row = 0; row < 5; ++row)
       block[5 * column + row] = static_cast<float>(area * flux[row].d[column]);
-}
-
-State constant(const Primitive<Real>& w) {
-  State out;
-  for (int i = 0; i < 5; ++i) out[i] = w[i];
-  return out;
-}
-
-/// The state with its entries marked as the independent variables.
-State independent(const Primitive<Real>& w) {
-  State out = constant(w);
-  for (int i = 0; i < 5; ++i) out[i].d[i] = 1;
-  return out;
 }
 
 /// Adds scale * dU/dW.
@@ -64,10 +51,10 @@ void face_terms(const Discretization& discretization, const FlowField<Real>& flo
     const Real area = norm(domain.face_normal[face]);
     const Vec3 normal = (1 / area) * domain.face_normal[face];
     const Real speed = conditions.face_speed(face, domain.face_center[face], normal);
-    const State l = constant(flow[left]), r = constant(flow[right]);
+    const State l = constant<5>(flow[left]), r = constant<5>(flow[right]);
     const FluxModel& model = discretization.flux();
-    const Flux from_left = numerical_flux(model, independent(flow[left]), r, normal, Dual<5>(speed)),
-               from_right = numerical_flux(model, l, independent(flow[right]), normal, Dual<5>(speed));
+    const Flux from_left = numerical_flux(model, independent<5>(flow[left]), r, normal, Dual<5>(speed)),
+               from_right = numerical_flux(model, l, independent<5>(flow[right]), normal, Dual<5>(speed));
     add_derivative(diagonal[left], from_left, area);
     store_derivative(matrix.right_of(face), from_right, area);
     const auto mean = Real{0.5} * (flow[left] + flow[right]);
@@ -85,13 +72,13 @@ void boundary_terms(const Discretization& discretization, const FlowField<Real>&
                     std::vector<Real>& wave_speed) {
   const Subdomain& domain = discretization.domain();
   const Real gamma = discretization.gamma();
-  const State outside = constant(conditions.free_stream);
+  const State outside = constant<5>(conditions.free_stream);
   for (std::size_t i = 0; i < domain.boundary_faces.size(); ++i) {
     const auto& face = domain.boundary_faces[i];
     const Real area = norm(domain.boundary_normal[i]);
     const Vec3 normal = (1 / area) * domain.boundary_normal[i];
     const Dual<5> speed = conditions.boundary_speed(i, domain.boundary_center[i], normal);
-    const State inside = independent(flow[face.cell]);
+    const State inside = independent<5>(flow[face.cell]);
     const BoundaryKind kind = discretization.kind_of(face);
     const auto flux = is_impermeable(kind)
                           ? wall_flux(boundary_pressure(kind, inside, normal, speed, gamma), normal, speed)

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <type_traits>
 
 #include "core/dual.hpp"
@@ -59,7 +60,7 @@ void Reconstruction<T>::gather_points(const FlowField<T>& flow, Index begin, Ind
     const auto cells = domain.point_cells[point];
     const Vec3 x = domain.points[point];
     PointSums sums{};
-    sums.minimum = sums.maximum = flow[cells[0]];
+    if constexpr (!is_change<T>) sums.minimum = sums.maximum = flow[cells[0]];
     for (const Index cell : cells) {
       const Primitive<T>& w = flow[cell];
       const Vec3 d = domain.center[cell] - x;
@@ -68,8 +69,10 @@ void Reconstruction<T>::gather_points(const FlowField<T>& flow, Index begin, Ind
         sums.moment.along[0][i] += d.x * w[i];
         sums.moment.along[1][i] += d.y * w[i];
         sums.moment.along[2][i] += d.z * w[i];
-        sums.minimum[i] = w[i] < sums.minimum[i] ? w[i] : sums.minimum[i];
-        sums.maximum[i] = w[i] > sums.maximum[i] ? w[i] : sums.maximum[i];
+        if constexpr (!is_change<T>) {
+          sums.minimum[i] = w[i] < sums.minimum[i] ? w[i] : sums.minimum[i];
+          sums.maximum[i] = w[i] > sums.maximum[i] ? w[i] : sums.maximum[i];
+        }
       }
     }
     points_[point] = sums;
@@ -145,15 +148,21 @@ T change_at(const Gradient<T>& gradient, const Vec3& offset, int i) {
   return offset.x * gradient.along[0][i] + offset.y * gradient.along[1][i] + offset.z * gradient.along[2][i];
 }
 
-Gradient<Real> values_of(const Gradient<Real>& gradient) {
-  return gradient;
+/// MLP looks at each corner and its own extrema; the others at the face opposite, a third of the arm beyond
+/// the centroid, and the extrema of all corners.
+constexpr bool is_at_corners(LimiterKind limiter) {
+  return limiter == LimiterKind::mlp_u2;
 }
-template <int N>
-Gradient<Real> values_of(const Gradient<Dual<N>>& gradient) {
-  Gradient<Real> out;
-  for (int axis = 0; axis < 3; ++axis)
-    for (int i = 0; i < 5; ++i) out.along[axis][i] = gradient.along[axis][i].v;
-  return out;
+constexpr Real reach(LimiterKind limiter) {
+  return is_at_corners(limiter) ? -1.0 : 1.0 / 3;
+}
+
+/// (K h)^3 with h^3 = 6 V (a cube's corner), times the square of the variable's scale: density 1, speed 1,
+/// pressure 1/gamma.
+Five<Real> passed_wiggles(const Discretization& discretization, Index cell) {
+  const Real gamma = discretization.gamma(), k = discretization.space().limiter_k;
+  const Real epsilon2 = k * k * k * 6 * discretization.domain().volume[cell];
+  return {{epsilon2, epsilon2, epsilon2, epsilon2, epsilon2 / (gamma * gamma)}};
 }
 
 }  // namespace
@@ -162,83 +171,138 @@ template <class T>
 template <LimiterKind limiter>
 Primitive<T> Reconstruction<T>::limiter_factors(Index cell, const Arms& arms, const Primitive<T>& w,
                                                 const Gradient<T>& gradient) const {
-  const Subdomain& domain = discretization_.domain();
-  const auto& corners = domain.cell_points[cell];
-  // (K h)^3 with h^3 = 6 V (a cube's corner); scales of density, speed and pressure: 1, 1 and 1/gamma.
-  const Real gamma = discretization_.gamma();
-  const Real k = discretization_.space().limiter_k;
-  const Real epsilon2 = k * k * k * 6 * domain.volume[cell];
-  const Real scaled[5] = {epsilon2, epsilon2, epsilon2, epsilon2, epsilon2 / (gamma * gamma)};
-  // MLP looks at each corner and its own extrema; the others at the face opposite, a third of the arm beyond
-  // the centroid, and the extrema of all corners.
-  constexpr bool at_corners = limiter == LimiterKind::mlp_u2;
-  constexpr Real reach = at_corners ? -1.0 : 1.0 / 3;
-  std::array<const PointSums*, 4> points;
-  for (std::size_t corner = 0; corner < 4; ++corner) points[corner] = &points_[corners[corner]];
-  // The smallest factor is found among plain numbers; it alone is differentiated.
-  using Numbers = std::array<Real, 5>;
-  using Corners = std::array<std::size_t, 5>;
-  Numbers minimum, maximum, smallest;
-  Corners lowest{}, highest{}, tightest;  // corners that hold the extrema, and that with the smallest factor
-  smallest.fill(1);
-  tightest.fill(arms.size());
+  const auto& corners = discretization_.domain().cell_points[cell];
+  const Five<Real> epsilon2 = passed_wiggles(discretization_, cell);
+  Primitive<T> minimum, maximum, smallest{{1, 1, 1, 1, 1}};
   const auto begin_with = [&](std::size_t corner) {
-    for (int i = 0; i < 5; ++i) {
-      minimum[i] = value_of(points[corner]->minimum[i]);
-      maximum[i] = value_of(points[corner]->maximum[i]);
-    }
-    lowest.fill(corner);
-    highest.fill(corner);
+    minimum = points_[corners[corner]].minimum;
+    maximum = points_[corners[corner]].maximum;
   };
   begin_with(0);
-  for (std::size_t corner = 1; corner < 4 && !at_corners; ++corner)
+  for (std::size_t corner = 1; corner < 4 && !is_at_corners(limiter); ++corner)
     for (int i = 0; i < 5; ++i) {
-      const Real low = value_of(points[corner]->minimum[i]), high = value_of(points[corner]->maximum[i]);
-      lowest[i] = low < minimum[i] ? corner : lowest[i];
-      minimum[i] = std::min(low, minimum[i]);
-      highest[i] = high > maximum[i] ? corner : highest[i];
-      maximum[i] = std::max(high, maximum[i]);
+      const T low = points_[corners[corner]].minimum[i], high = points_[corners[corner]].maximum[i];
+      minimum[i] = low < minimum[i] ? low : minimum[i];
+      maximum[i] = high > maximum[i] ? high : maximum[i];
     }
-  const Gradient<Real> slope = values_of(gradient);
   for (std::size_t corner = 0; corner < arms.size(); ++corner) {
-    const Vec3 offset = reach * arms[corner];
-    if (at_corners) begin_with(corner);
+    const Vec3 offset = reach(limiter) * arms[corner];
+    if (is_at_corners(limiter)) begin_with(corner);
     for (int i = 0; i < 5; ++i) {
-      const Real delta = change_at(slope, offset, i);
-      const Real room = (delta > 0 ? maximum[i] : minimum[i]) - value_of(w[i]);
-      const Real factor = limited_share<limiter>(delta, room, scaled[i]);
-      tightest[i] = factor < smallest[i] ? corner : tightest[i];
-      smallest[i] = std::min(factor, smallest[i]);
+      const T delta = change_at(gradient, offset, i);
+      const T room = (delta > T(0) ? maximum[i] : minimum[i]) - w[i];
+      const T factor = limited_share<limiter>(delta, room, epsilon2[i]);
+      smallest[i] = factor < smallest[i] ? factor : smallest[i];
     }
   }
-  Primitive<T> out;
+  return smallest;
+}
+
+template <class T>
+template <LimiterKind limiter>
+LimiterSlope Reconstruction<T>::limiter_slope(Index cell, const FlowField<T>& flow) const {
+  const Subdomain& domain = discretization_.domain();
+  const auto& corners = domain.cell_points[cell];
+  const Five<Real> epsilon2 = passed_wiggles(discretization_, cell);
+  const Arms arms = arms_of(cell);
+  const Primitive<Real>& w = flow[cell];
+  LimiterSlope out{{{1, 1, 1, 1, 1}}, unlimited(cell, arms, w), {}, {}, {}, {}};
+  out.extremum.fill(cell);
   for (int i = 0; i < 5; ++i) {
-    out[i] = smallest[i];
-    if constexpr (!std::is_same_v<T, Real>)
-      if (const std::size_t corner = tightest[i]; corner < arms.size()) {
-        const T delta = change_at(gradient, reach * arms[corner], i);
-        const T& extremum = value_of(delta) > 0 ? points[at_corners ? corner : highest[i]]->maximum[i]
-                                                : points[at_corners ? corner : lowest[i]]->minimum[i];
-        out[i] = limited_share<limiter>(delta, extremum - w[i], scaled[i]);
-      }
+    const auto entry = static_cast<std::size_t>(i);
+    for (std::size_t corner = 0; corner < arms.size(); ++corner) {
+      Dual<2> delta = change_at(out.gradient, reach(limiter) * arms[corner], i);
+      const auto extremum_of = [&](Index point) {
+        return delta.v > 0 ? points_[point].maximum[i] : points_[point].minimum[i];
+      };
+      Index at = corners[corner];
+      for (const Index point : corners)
+        if (!is_at_corners(limiter) &&
+            (delta.v > 0 ? extremum_of(point) > extremum_of(at) : extremum_of(point) < extremum_of(at)))
+          at = point;
+      Dual<2> room = extremum_of(at) - w[i];
+      delta.d[0] = 1;
+      room.d[1] = 1;
+      const Dual<2> factor = limited_share<limiter>(delta, room, epsilon2[i]);
+      if (!(factor.v < out.factor[i])) continue;
+      out.factor[i] = factor.v;
+      out.by_delta[i] = factor.d[0];
+      out.by_room[i] = factor.d[1];
+      out.corner[entry] = static_cast<std::uint8_t>(corner);
+      const auto around = domain.point_cells[at];
+      out.extremum[entry] = *std::ranges::find_if(
+          around, [&, value = extremum_of(at)](Index other) { return flow[other][i] == value; });
+    }
   }
   return out;
+}
+
+template <class T>
+std::vector<LimiterSlope> Reconstruction<T>::limiter_slopes(
+    const FlowField<T>& flow) const requires std::is_same_v<T, Real> {
+  const auto slopes = [&]<LimiterKind limiter>() {
+    std::vector<LimiterSlope> out(static_cast<std::size_t>(discretization_.domain().owned_cells));
+    for (std::size_t cell = 0; cell < out.size(); ++cell)
+      out[cell] = limiter_slope<limiter>(static_cast<Index>(cell), flow);
+    return out;
+  };
+  switch (discretization_.space().limiter) {
+    case LimiterKind::venkatakrishnan:
+      return slopes.template operator()<LimiterKind::venkatakrishnan>();
+    case LimiterKind::mlp_u2:
+      return slopes.template operator()<LimiterKind::mlp_u2>();
+    case LimiterKind::barth_jespersen:
+      return slopes.template operator()<LimiterKind::barth_jespersen>();
+    case LimiterKind::none:
+      break;
+  }
+  return {};
+}
+
+template <class T>
+template <LimiterKind limiter>
+void Reconstruction<T>::follow_limiter(Index cell, const FlowField<T>& flow, const Arms& arms,
+                                       Gradient<T>& gradient) const {
+  const LimiterSlope& slope = slopes_[static_cast<std::size_t>(cell)];
+  for (int i = 0; i < 5; ++i) {
+    const auto entry = static_cast<std::size_t>(i);
+    const T delta = change_at(gradient, reach(limiter) * arms[slope.corner[entry]], i);
+    const T room = flow[slope.extremum[entry]][i] - flow[cell][i];
+    const T factor = slope.by_delta[i] * delta + slope.by_room[i] * room;
+    for (int axis = 0; axis < 3; ++axis)
+      gradient.along[axis][i] =
+          slope.factor[i] * gradient.along[axis][i] + slope.gradient.along[axis][i] * factor;
+  }
+}
+
+template <class T>
+typename Reconstruction<T>::Arms Reconstruction<T>::arms_of(Index cell) const {
+  const Subdomain& domain = discretization_.domain();
+  Arms out;
+  for (std::size_t corner = 0; corner < out.size(); ++corner)
+    out[corner] = domain.center[cell] - domain.points[domain.cell_points[cell][corner]];
+  return out;
+}
+
+template <class T>
+Gradient<T> Reconstruction<T>::unlimited(Index cell, const Arms& arms, const Primitive<T>& w) const {
+  const bool by_least_squares = discretization_.space().gradient == GradientKind::least_squares;
+  return by_least_squares ? least_squares(cell, arms, w) : green_gauss(cell);
 }
 
 template <class T>
 template <LimiterKind limiter>
 void Reconstruction<T>::fit_limited(const FlowField<T>& flow, Index begin, Index end) {
   const Subdomain& domain = discretization_.domain();
-  const bool by_least_squares = discretization_.space().gradient == GradientKind::least_squares;
   for (Index cell = begin; cell < end; ++cell) {
     if (const Index ahead = cell + cells_ahead; ahead < end)
       for (const Index point : domain.cell_points[ahead]) prefetch(points_[point]);
     const Primitive<T>& w = flow[cell];
-    Arms arms;
-    for (std::size_t corner = 0; corner < 4; ++corner)
-      arms[corner] = domain.center[cell] - domain.points[domain.cell_points[cell][corner]];
-    Gradient<T> gradient = by_least_squares ? least_squares(cell, arms, w) : green_gauss(cell);
-    if constexpr (limiter != LimiterKind::none) {
+    const Arms arms = arms_of(cell);
+    Gradient<T> gradient = unlimited(cell, arms, w);
+    if constexpr (is_change<T>) {
+      if (!slopes_.empty()) follow_limiter<limiter>(cell, flow, arms, gradient);
+    } else if constexpr (limiter != LimiterKind::none) {
       Primitive<T> factor;
       if (frozen_) {
         for (int i = 0; i < 5; ++i) factor[i] = factors_[cell][i];
@@ -260,8 +324,8 @@ std::size_t Reconstruction<T>::bytes() const {
 }
 
 template class Reconstruction<Real>;
-template class Reconstruction<Dual<1>>;
-template class Reconstruction<Dual<2>>;
-template class Reconstruction<Dual<3>>;
+template class Reconstruction<Changes<1>>;
+template class Reconstruction<Changes<2>>;
+template class Reconstruction<Changes<3>>;
 
 }  // namespace alphadot

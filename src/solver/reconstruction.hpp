@@ -2,8 +2,12 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
+#include <span>
+#include <type_traits>
 #include <vector>
 
+#include "core/changes.hpp"
 #include "core/communicator.hpp"
 #include "solver/discretization.hpp"
 #include "solver/flow_field.hpp"
@@ -26,7 +30,30 @@ Primitive<T> extrapolated(const Primitive<T>& state, const Gradient<T>& gradient
   return out;
 }
 
-/// Limited gradients of a flow field. T is Real, or a dual number for the tangent.
+/// Share of a reconstruction that a face may use: all of it while the state on the face keeps a fifth of the
+/// cell's density and pressure, in proportion below, none of it at vacuum. Continuous, so that a march can
+/// come to rest at such a face.
+template <class T>
+T usable_share(const Primitive<T>& face, const Primitive<T>& cell) {
+  constexpr Real kept = 0.2;
+  if (face[0] >= kept * cell[0] && face[4] >= kept * cell[4]) return T(1);
+  const T density = face[0] / cell[0], pressure = face[4] / cell[4];
+  const T lowest = density < pressure ? density : pressure;
+  return lowest > T(0) ? T(lowest / kept) : T(0);
+}
+
+/// How the limited gradient of one cell follows a small change of the flow:
+///   d(phi g) = phi dg + g (by_delta ddelta + by_room droom)
+/// in each variable, delta and room being those of the corner that limits it most (see limiter.hpp).
+struct LimiterSlope {
+  Primitive<Real> factor;   ///< phi
+  Gradient<Real> gradient;  ///< g
+  Primitive<Real> by_delta, by_room;
+  std::array<std::uint8_t, 5> corner;
+  std::array<Index, 5> extremum;  ///< the cell whose value gives the room
+};
+
+/// Limited gradients of a flow field, or (T = Changes) their changes with it.
 template <class T>
 class Reconstruction {
  public:
@@ -45,16 +72,26 @@ class Reconstruction {
   void start_exchange() { gradients_.start_exchange(); }
   void finish_exchange() { gradients_.finish_exchange(); }
 
+  /// Of every owned cell, at the flow of the latest update (T = Real) with the limiter free; none without a
+  /// limiter. About what a few updates cost.
+  std::vector<LimiterSlope> limiter_slopes(const FlowField<T>& flow) const requires std::is_same_v<T, Real>;
+  /// T = Changes: the slopes of the flow that changes, which must outlive the use; without any, gradients are
+  /// not limited.
+  void follow(std::span<const LimiterSlope> slopes) { slopes_ = slopes; }
+
   const Gradient<T>& operator[](Index cell) const { return gradients_[cell]; }
   std::size_t bytes() const;
   const HaloExchange<Gradient<T>>& halo() const { return gradients_.halo(); }
 
  private:
-  /// Sums over the cells j around a point v: values, values times (c_j - x_v), and extrema.
-  struct PointSums {
+  struct Extrema {
+    Primitive<T> minimum, maximum;
+  };
+  struct NoExtrema {};
+  /// Sums over the cells j around a point v: values, values times (c_j - x_v); and extrema.
+  struct PointSums : std::conditional_t<is_change<T>, NoExtrema, Extrema> {
     Primitive<T> value;
     Gradient<T> moment;
-    Primitive<T> minimum, maximum;
   };
   /// Vectors from the corners of a cell to its centroid.
   using Arms = std::array<Vec3, 4>;
@@ -65,15 +102,22 @@ class Reconstruction {
   void fit_limited(const FlowField<T>& flow, Index begin, Index end);
   Gradient<T> least_squares(Index cell, const Arms& arms, const Primitive<T>& w) const;
   Gradient<T> green_gauss(Index cell) const;
+  Arms arms_of(Index cell) const;
+  Gradient<T> unlimited(Index cell, const Arms& arms, const Primitive<T>& w) const;
   template <LimiterKind limiter>
   Primitive<T> limiter_factors(Index cell, const Arms& arms, const Primitive<T>& w,
                                const Gradient<T>& gradient) const;
+  template <LimiterKind limiter>
+  void follow_limiter(Index cell, const FlowField<T>& flow, const Arms& arms, Gradient<T>& gradient) const;
+  template <LimiterKind limiter>
+  LimiterSlope limiter_slope(Index cell, const FlowField<T>& flow) const;
 
   const Discretization& discretization_;
   CellField<Gradient<T>> gradients_;
   std::vector<PointSums> points_;     // [owned_points]
   std::vector<Five<float>> factors_;  // [owned_cells] of the limiter, when the case may freeze it
   bool frozen_ = false;
+  std::span<const LimiterSlope> slopes_;  // [owned_cells] or none
 };
 
 }  // namespace alphadot

@@ -4,7 +4,6 @@
 #include <array>
 #include <type_traits>
 
-#include "core/dual.hpp"
 #include "euler/boundary.hpp"
 #include "solver/prefetch.hpp"
 
@@ -21,7 +20,7 @@ void Residual<T>::evaluate(FlowField<T>& flow, const Conditions<T>& conditions, 
                            std::span<Conserved<T>> residual) {
   const Subdomain& domain = discretization_.domain();
   const auto cut_end = static_cast<Index>(domain.faces.size());
-  fallback_faces_ = 0;
+  limited_faces_ = 0;
   std::fill(residual.begin(), residual.end(), Conserved<T>{});
   flow.start_exchange();
   if (order > 1) {
@@ -38,30 +37,21 @@ void Residual<T>::evaluate(FlowField<T>& flow, const Conditions<T>& conditions, 
   interior_faces(flow, conditions, order, domain.cut_face_begin, cut_end, residual);
 }
 
-namespace {
-/// A reconstructed state is trusted when it keeps this share of the cell's density and pressure.
-constexpr Real trusted_share = 0.1;
-
-template <class T>
-bool trusted(const Primitive<T>& face, const Primitive<T>& cell) {
-  return face[0] > trusted_share * cell[0] && face[4] > trusted_share * cell[4];
-}
-}  // namespace
-
 template <class T>
 Primitive<T> Residual<T>::face_state(const FlowField<T>& flow, Index cell, const Vec3& face_center,
                                      int order) const {
   if (order == 1) return flow[cell];
   const auto state =
       extrapolated(flow[cell], reconstruction_[cell], face_center - discretization_.domain().center[cell]);
-  return trusted(state, flow[cell]) ? state : flow[cell];
+  const T share = usable_share(state, flow[cell]);
+  return flow[cell] + share * (state - flow[cell]);
 }
 
 namespace {
 
 constexpr Index faces_ahead = 24;  // that the memory is asked for
 
-/// Faces whose fluxes are computed together, one to a lane of the vector registers. Dual numbers come alone.
+/// Faces whose fluxes are computed together, one to a lane of the vector registers. Other numbers come alone.
 template <class T>
 struct FaceBatch {
   static constexpr int lanes = std::is_same_v<T, Real> ? 8 : 1;
@@ -147,11 +137,15 @@ void Residual<T>::interior_faces(const FlowField<T>& flow, const Conditions<T>& 
       if (order > 1) {
         const auto l = extrapolated(wl, reconstruction_[left], center - domain.center[left]);
         const auto r = extrapolated(wr, reconstruction_[right], center - domain.center[right]);
-        if (trusted(l, wl) && trusted(r, wr)) {
+        const T of_left = usable_share(l, wl), of_right = usable_share(r, wr);
+        const T share = of_left < of_right ? of_left : of_right;
+        if (share < T(1)) {
+          wl += share * (l - wl);
+          wr += share * (r - wr);
+          if (lane < count) ++limited_faces_;
+        } else {
           wl = l;
           wr = r;
-        } else if (lane < count) {
-          ++fallback_faces_;
         }
       }
       batch.set_states(lane, wl, wr);
@@ -192,20 +186,12 @@ void Residual<T>::rotating_axes(const FlowField<T>& flow, const Conditions<T>& c
                                 std::span<Conserved<T>> residual) {
   const Subdomain& domain = discretization_.domain();
   const auto& rotation = conditions.grid.rotation;
-  if (!conditions.turning_source) return;
-  if constexpr (std::is_same_v<T, Real>)
-    if (dot(rotation, rotation) == 0) return;
+  if (!conditions.turning_source || !(dot(rotation, rotation) > T(0))) return;
   for (Index cell = 0; cell < domain.owned_cells; ++cell) {
-    const T mass = domain.volume[cell] * flow[cell][0];
-    const auto turn = mass * cross(rotation, velocity(flow[cell]) - conditions.turning_stream);
-    for (int i = 0; i < 3; ++i) residual[cell][i + 1] += turn[i];
-    residual[cell][4] += dot(velocity(flow[cell]), turn);  // its work; none while the turning stream is zero
+    residual[cell] += domain.volume[cell] * turning_source(flow[cell], conditions);
   }
 }
 
 template class Residual<Real>;
-template class Residual<Dual<1>>;
-template class Residual<Dual<2>>;
-template class Residual<Dual<3>>;
 
 }  // namespace alphadot

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "core/dual.hpp"
 #include "core/error.hpp"
 #include "solver/search_space.hpp"
 
@@ -70,7 +71,7 @@ Load remaining_error(const Record& record, const std::vector<Load>& totals) {
 template <int N>
 class Lockstep {
  public:
-  Lockstep(ImplicitIteration& iteration, const Conditions<Real>& conditions,
+  Lockstep(ImplicitIteration& iteration, const Linearisation& linearisation,
            std::span<const SensitivityProblem> problems, const DerivativeSettings& settings,
            const std::function<bool()>& go_on)
       : iteration_(iteration),
@@ -80,7 +81,7 @@ class Lockstep {
         space_(static_cast<std::size_t>(iteration.discretization().domain().owned_cells), settings.directions,
                comm_),
         go_on_(go_on),
-        tangent_(iteration.discretization(), comm_, iteration.flow(), conditions, iteration.moment_center()) {
+        tangent_(linearisation, iteration.moment_center()) {
     const auto cells = static_cast<std::size_t>(iteration.discretization().domain().owned_cells);
     for (std::size_t k = 0; k < N; ++k) {
       results_[k].name = problems[k].name;
@@ -245,10 +246,10 @@ class Lockstep {
 
 /// False when it was stopped.
 template <int N>
-bool solve_group(ImplicitIteration& iteration, const Conditions<Real>& conditions,
+bool solve_group(ImplicitIteration& iteration, const Linearisation& linearisation,
                  std::span<const SensitivityProblem> problems, const DerivativeSettings& settings,
                  const std::function<bool()>& go_on, std::vector<Sensitivity>& out) {
-  auto results = Lockstep<N>(iteration, conditions, problems, settings, go_on).solve();
+  auto results = Lockstep<N>(iteration, linearisation, problems, settings, go_on).solve();
   if (!results) return false;
   for (auto& result : *results) out.push_back(std::move(result));
   return true;
@@ -258,7 +259,10 @@ bool solve_group(ImplicitIteration& iteration, const Conditions<Real>& condition
 
 SensitivitySolver::SensitivitySolver(ImplicitIteration& iteration, const Conditions<Real>& conditions,
                                      const DerivativeSettings& settings, std::function<bool()> go_on)
-    : iteration_(iteration), conditions_(conditions), settings_(settings), go_on_(std::move(go_on)) {
+    : iteration_(iteration),
+      linearisation_(iteration.discretization(), iteration.communicator(), iteration.flow(), conditions),
+      settings_(settings),
+      go_on_(std::move(go_on)) {
   iteration.linearise(conditions, {.cfl = linear_cfl});
 }
 
@@ -270,7 +274,7 @@ std::vector<Sensitivity> SensitivitySolver::solve(const std::vector<SensitivityP
     const auto solve = group.size() == 3   ? solve_group<3>
                        : group.size() == 2 ? solve_group<2>
                                            : solve_group<1>;
-    if (!solve(iteration_, conditions_, group, settings_, go_on_, out)) return {};
+    if (!solve(iteration_, linearisation_, group, settings_, go_on_, out)) return {};
     begin += group.size();
   }
   return out;

@@ -51,7 +51,7 @@ class SensitivitySolver {
 
  private:
   ImplicitIteration& iteration_;
-  Conditions<Real> conditions_;
+  Linearisation linearisation_;
   DerivativeSettings settings_;
   std::function<bool()> go_on_;
 };

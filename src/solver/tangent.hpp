@@ -1,13 +1,13 @@
-// The derivative of the second-order residual, by running the very same residual in dual numbers.
+// The derivative of the second-order residual along changes of the flow and of its conditions.
 #pragma once
 
 #include <array>
 #include <span>
 #include <vector>
 
-#include "core/dual.hpp"
+#include "core/changes.hpp"
 #include "solver/forces.hpp"
-#include "solver/residual.hpp"
+#include "solver/linearisation.hpp"
 
 namespace alphadot {
 
@@ -19,13 +19,13 @@ struct ConditionsChange {
   Vec3 rotation;
 };
 
-/// Directional derivatives of R(W, conditions) and of the wall loads in N directions at once.
+/// Directional derivatives of R(W, conditions) and of the wall loads in N directions at once. What is linear
+/// in the residual is done to the changes as it is done to the flow; the rest are products with the matrices
+/// of a linearisation, which must outlive this.
 template <int N>
 class Tangent {
  public:
-  /// About a flow whose conditions are those given. Neither is changed.
-  Tangent(const Discretization& discretization, const Communicator& comm, const FlowField<Real>& flow,
-          const Conditions<Real>& conditions, const Vec3& moment_center);
+  Tangent(const Linearisation& linearisation, const Vec3& moment_center);
 
   using Fields = std::array<std::span<const Primitive<Real>>, N>;
   using Images = std::array<std::span<Conserved<Real>>, N>;
@@ -36,16 +36,31 @@ class Tangent {
   std::array<std::vector<Load>, N> loads() const;
 
   std::size_t bytes() const {
-    return flow_.bytes() + residual_.bytes() + values_.size() * sizeof(values_[0]);
+    return flow_.bytes() + reconstruction_.bytes() + values_.size() * sizeof(values_[0]) +
+           pressures_.size() * sizeof(pressures_[0]);
   }
 
  private:
+  /// Changes of the conditions, where they are not all zero.
+  struct Forcing {
+    Vec3Of<Changes<N>> wind;
+    GridMotion<Changes<N>> grid;
+  };
+  static Forcing forcing_of(const std::array<ConditionsChange, N>& changes, const Vec3& axis);
+
+  Primitive<Changes<N>> at_face(Index cell, const Vec3& face_center, Real share) const;
+  void interior_faces(Index begin, Index end);
+  void boundary_faces();
+  void force_faces(const Forcing& forcing);
+  void turn_axes(const std::array<ConditionsChange, N>& changes);
+
+  const Linearisation& linearisation_;
   const Discretization& discretization_;
-  Conditions<Real> conditions_;
   Vec3 moment_center_;
-  FlowField<Dual<N>> flow_;
-  Residual<Dual<N>> residual_;
-  std::vector<Conserved<Dual<N>>> values_;
+  FlowField<Changes<N>> flow_;
+  Reconstruction<Changes<N>> reconstruction_;
+  std::vector<Conserved<Changes<N>>> values_;  // [owned_cells]
+  std::vector<Changes<N>> pressures_;          // [boundary_faces]
 };
 
 }  // namespace alphadot

@@ -17,11 +17,6 @@ struct Operations {
   std::int64_t roots = 0;
 
   std::int64_t flops() const { return sums + products + scalings + quotients + roots; }
-  /// The same operations on dual numbers with n derivatives, as core/dual.hpp does them.
-  std::int64_t flops_of_duals(int n) const {
-    return sums * (1 + n) + products * (1 + 3 * n) + scalings * (1 + n) + quotients * (2 + 3 * n) +
-           roots * (2 + n);
-  }
 };
 
 class Counted {
