@@ -49,12 +49,12 @@ std::string_view read_name(Scanner& in) {
 void read_physical_names(State& state) {
   Scanner& in = state.in;
   const GlobalIndex count = in.read_int_count("the number of physical names", {.ints = 3});
-  state.surface_names.reserve(static_cast<std::size_t>(count));
+  reserve_more(state.surface_names, count, in);
   for (GlobalIndex i = 0; i < count; ++i) {
     const int dimension = in.read_int("the dimension of a physical group");
     const int tag = in.read_int("the tag of a physical group");
     const std::string_view name = read_name(in);
-    if (dimension == 2) state.surface_names.emplace_back(tag, name);
+    if (dimension == 2) append(state.surface_names, {tag, name}, in);
   }
   std::sort(state.surface_names.begin(), state.surface_names.end());
 }

@@ -42,11 +42,11 @@ void read_element(State& state, const ElementType& type, GlobalIndex tag_count) 
   const Tags tags = read_tags(state.in, tag_count);
   switch (type.use) {
     case ElementUse::tetrahedron:
-      state.mesh.cells().push_back(read_points<4>(state));
+      append(state.mesh.cells(), read_points<4>(state), state.in);
       return;
     case ElementUse::triangle: {
       Patch& patch = patch_of(state, tags);
-      patch.triangles.push_back(read_points<3>(state));
+      append(patch.triangles, read_points<3>(state), state.in);
       return;
     }
     case ElementUse::refused:
@@ -85,11 +85,11 @@ void read_nodes_v2(State& state) {
   in.check_count(count, "the number of nodes", {.ints = 1, .reals = 3});
 
   std::vector<GlobalIndex> tags;
-  tags.reserve(static_cast<std::size_t>(count));
-  state.mesh.points().reserve(static_cast<std::size_t>(count));
+  reserve_more(tags, count, in);
+  reserve_more(state.mesh.points(), count, in);
   for (GlobalIndex i = 0; i < count; ++i) {
-    tags.push_back(in.read_int("a node tag"));
-    state.mesh.points().push_back(read_coordinates(in));
+    append(tags, GlobalIndex{in.read_int("a node tag")}, in);
+    append(state.mesh.points(), read_coordinates(in), in);
   }
   state.index_nodes(tags, section);
 }
@@ -101,7 +101,7 @@ void read_elements_v2(State& state) {
   in.set_encoding(state.encoding);
   in.check_count(count, "the number of elements", {.ints = 2});
   // Most elements are tetrahedra, of seven numbers each at least when they tell their groups.
-  reserve_more(state.mesh.cells(), std::min(count, in.capacity({.ints = 7})));
+  reserve_more(state.mesh.cells(), std::min(count, in.capacity({.ints = 7})), in);
 
   if (state.encoding == Encoding::text) {
     for (GlobalIndex i = 0; i < count; ++i) {

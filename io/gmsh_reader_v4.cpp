@@ -21,7 +21,7 @@ void read_entity(State& state, int dimension) {
   // A point has its place here, others their bounding box, which is beyond all numbers when they are empty.
   for (int i = 0; i < (dimension == 0 ? 3 : 6); ++i) in.skip_real("a bound of an entity");
   read_physical_tags(in, [&](int physical) {
-    if (dimension == 2) state.surface_groups.emplace_back(tag, physical);
+    if (dimension == 2) append(state.surface_groups, {tag, physical}, in);
   });
   if (dimension == 0) return;
   const GlobalIndex bounding = in.read_long_count("the number of bounding entities", {.ints = 1});
@@ -35,11 +35,11 @@ void read_node_block(State& state, std::vector<GlobalIndex>& tags) {
   in.read_int("the entity of a block of nodes");
   const bool parametric = in.read_int("whether the nodes are parametric") != 0;
   const GlobalIndex count = in.read_long_count("the number of nodes in a block", {.longs = 1, .reals = 3});
-  reserve_more(tags, count);
-  reserve_more(state.mesh.points(), count);
-  for (GlobalIndex i = 0; i < count; ++i) tags.push_back(in.read_long("a node tag"));
+  reserve_more(tags, count, in);
+  reserve_more(state.mesh.points(), count, in);
+  for (GlobalIndex i = 0; i < count; ++i) append(tags, in.read_long("a node tag"), in);
   for (GlobalIndex i = 0; i < count; ++i) {
-    state.mesh.points().push_back(read_coordinates(in));
+    append(state.mesh.points(), read_coordinates(in), in);
     for (int k = 0; parametric && k < std::min(dimension, 3); ++k) in.skip_real("a parametric coordinate");
   }
 }
@@ -67,10 +67,10 @@ Patch& patch_of(State& state, int surface) {
 
 template <std::size_t n>
 void read_element_block(State& state, GlobalIndex count, std::vector<std::array<GlobalIndex, n>>& elements) {
-  reserve_more(elements, count);
+  reserve_more(elements, count, state.in);
   for (GlobalIndex i = 0; i < count; ++i) {
     state.in.read_long("an element tag");
-    std::array<GlobalIndex, n>& points = elements.emplace_back();
+    std::array<GlobalIndex, n>& points = append(elements, {}, state.in);
     for (GlobalIndex& point : points) point = state.point_of(state.in.read_long("a node tag"));
   }
 }
@@ -146,8 +146,8 @@ void read_nodes_v4(State& state) {
   in.check_count(header.entries, "the number of nodes", {.longs = 1, .reals = 3});
 
   std::vector<GlobalIndex> tags;
-  reserve_more(tags, header.entries);
-  reserve_more(state.mesh.points(), header.entries);
+  reserve_more(tags, header.entries, in);
+  reserve_more(state.mesh.points(), header.entries, in);
   for (GlobalIndex block = 0; block < header.blocks; ++block) read_node_block(state, tags);
   check_total(state, static_cast<GlobalIndex>(tags.size()), header.entries, "nodes");
   state.index_nodes(tags, section);

@@ -1,5 +1,6 @@
 #include "io/mesh_builder.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "core/error.hpp"
@@ -9,6 +10,8 @@ namespace {
 
 // More names than any mesh has: such a file numbers something else in the place of its boundaries.
 constexpr std::size_t most_patches = 10'000;
+// Of a patch with its names and lists, before it has triangles.
+constexpr std::size_t patch_bytes = 256;
 
 }  // namespace
 
@@ -19,8 +22,9 @@ MeshBuilder::MeshBuilder(std::string file) {
 Patch& MeshBuilder::patch(std::string_view name, const Scanner& scanner) {
   const auto found = patches_.find(name);
   if (found != patches_.end()) return mesh_.patches[found->second];
-  if (mesh_.patches.size() == most_patches)
-    scanner.fail("more than " + std::to_string(most_patches) + " boundary patches",
+  const std::size_t most = std::min(most_patches, largest_array(scanner) / patch_bytes);
+  if (mesh_.patches.size() == most)
+    scanner.fail("more than " + std::to_string(most) + " boundary patches",
                  "check that boundaries, not single triangles, are numbered");
   patches_.emplace(name, mesh_.patches.size());
   return mesh_.patches.emplace_back(Patch{std::string(name), {}});

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "io/bounded_growth.hpp"
 #include "io/scanner.hpp"
 #include "partition/mesh.hpp"
 
@@ -46,15 +47,6 @@ inline Vec3 read_coordinates(Scanner& scanner) {
   // Braces read them in this order.
   return Vec3{scanner.read_real("x of a point"), scanner.read_real("y of a point"),
               scanner.read_real("z of a point")};
-}
-
-/// Makes room for `count` more entries. Grows geometrically, so that many small blocks stay cheap; exact for
-/// the first one.
-template <class T>
-void reserve_more(std::vector<T>& entries, GlobalIndex count) {
-  const std::size_t needed = entries.size() + static_cast<std::size_t>(count);
-  if (needed > entries.capacity())
-    entries.reserve(std::max(needed, entries.capacity() + entries.capacity() / 2));
 }
 
 }  // namespace alphadot

@@ -40,6 +40,8 @@ class Scanner {
   void set_encoding(Encoding encoding) { encoding_ = encoding; }
   Encoding encoding() const { return encoding_; }
   const std::string& file() const { return file_; }
+  /// Bytes of the whole file.
+  std::size_t size() const { return content_.size(); }
   std::size_t position() const { return position_; }
   std::size_t remaining() const { return content_.size() - position_; }
 

@@ -2,6 +2,7 @@
 
 #include <xxhash.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <cstring>
@@ -27,7 +28,7 @@ std::uint64_t hash_of(std::istream& in, std::uint64_t size, const std::string& p
   const std::unique_ptr<XXH64_state_t, decltype(&XXH64_freeState)> state(XXH64_createState(),
                                                                          &XXH64_freeState);
   XXH64_reset(state.get(), 0);
-  std::vector<char> piece(std::size_t{1} << 20);
+  std::vector<char> piece(std::min<std::uint64_t>(size, std::uint64_t{1} << 20));
   for (std::uint64_t done = 0; done < size;) {
     const auto count = std::min<std::uint64_t>(piece.size(), size - done);
     if (!in.read(piece.data(), static_cast<std::streamsize>(count)))

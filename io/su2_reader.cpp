@@ -114,9 +114,9 @@ void Su2Reader::read_points() {
   // Files from partitioned runs tell here how many points are not halo points.
   read_index();
   end_record();
-  mesh_.points().reserve(static_cast<std::size_t>(count));
+  reserve_more(mesh_.points(), count, in_);
   for (GlobalIndex i = 0; i < count; ++i) {
-    mesh_.points().push_back(read_coordinates(in_));
+    append(mesh_.points(), read_coordinates(in_), in_);
     const std::optional<GlobalIndex> index = read_index();
     if (index && *index != i)
       in_.fail("point " + std::to_string(i) + " has the index " + std::to_string(*index),
@@ -151,11 +151,11 @@ void Su2Reader::read_marker_elements() {
 template <std::size_t n>
 void Su2Reader::read_elements(int wanted, GlobalIndex count,
                               std::vector<std::array<GlobalIndex, n>>& elements) {
-  reserve_more(elements, std::min(count, in_.capacity({.ints = 1, .longs = n})));
+  reserve_more(elements, std::min(count, in_.capacity({.ints = 1, .longs = n})), in_);
   for (GlobalIndex i = 0; i < count; ++i) {
     const ElementType& type = read_element_type();
     if (type.number == wanted) {
-      std::array<GlobalIndex, n>& points = elements.emplace_back();
+      std::array<GlobalIndex, n>& points = append(elements, {}, in_);
       for (GlobalIndex& point : points) point = read_point_id();
     } else {
       mesh_.refuse(type.plural, 1);

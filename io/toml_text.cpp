@@ -5,7 +5,8 @@
 namespace alphadot {
 
 namespace {
-constexpr int most_parts = 16;  ///< of one key
+constexpr int most_parts = 16;         ///< of one key
+constexpr int most_separators = 1000;  ///< commas and brackets: no key takes more than three values
 constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
 
 bool is_control(char c) {
@@ -26,7 +27,7 @@ std::string toml_string(std::string_view text) {
 }
 
 Problem unsafe_line(std::string_view text) {
-  int line = 1, dots = 0;
+  int line = 1, dots = 0, separators = 0;
   char quote = 0;      // that is open
   char before = '\n';  // the last character outside quotes that is not a blank
   bool comment = false;
@@ -66,6 +67,8 @@ Problem unsafe_line(std::string_view text) {
       } else if (std::string_view("=,[]{}").find(c) != std::string_view::npos) {
         dots = 0;
       }
+      if ((c == ',' || c == '[') && ++separators > most_separators)
+        return {"", line, "more values than a case has", "is it a case file?"};
       before = c;
     }
   }

@@ -74,7 +74,7 @@ void read_triangles(Scanner& in, const Header& header, const SurfaceNames& names
       patch = &mesh.patch(name != names.end() ? name->second : "patch_" + std::to_string(id), ids);
       id_of_patch = id;
     }
-    patch->triangles.push_back(read_points<3>(in, header.points));
+    append(patch->triangles, read_points<3>(in, header.points), ids);
   }
   in = ids;
 }

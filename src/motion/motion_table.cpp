@@ -30,7 +30,11 @@ std::vector<std::string_view> words_of_line(std::string_view line) {
 
 class TableReader {
  public:
-  explicit TableReader(const std::string& file) : file_(file) {}
+  TableReader(std::string_view text, const std::string& file)
+      // t_star increases, so that of many rows each has four characters at least.
+      : file_(file),
+        most_rows_(
+            std::min(static_cast<std::size_t>(std::ranges::count(text, '\n')) + 1, text.size() / 4 + 2048)) {}
 
   void add_line(std::string_view line) {
     ++line_;
@@ -77,6 +81,7 @@ class TableReader {
       names_.push_back(name);
     }
     columns_.resize(names_.size());
+    for (auto& values : columns_) values.reserve(most_rows_);
   }
 
   void read_point(const std::vector<std::string_view>& words) {
@@ -112,6 +117,7 @@ class TableReader {
   }
 
   std::string file_;
+  std::size_t most_rows_;
   int line_ = 0;
   std::vector<std::string> names_;
   std::vector<std::vector<Real>> columns_;
@@ -120,7 +126,7 @@ class TableReader {
 }  // namespace
 
 MotionTable parse_motion_table(std::string_view text, const std::string& file) {
-  TableReader reader(file);
+  TableReader reader(text, file);
   for (std::size_t at = 0; at < text.size();) {
     const std::size_t end = std::min(text.find('\n', at), text.size());
     reader.add_line(text.substr(at, end - at));

@@ -16,15 +16,11 @@ inline std::string_view text(const std::uint8_t* data, std::size_t size) {
   return {reinterpret_cast<const char*>(data), size};
 }
 
-/// The shortest line of text that makes a point, "0 0 0" with its end, has 6 bytes; a point has 24.
-constexpr std::size_t text_growth = 4;
-constexpr std::size_t binary_growth = 2;
-
 /// Ends the program when an id of the mesh that `read` gives is out of range, or when a block of memory is
-/// larger than `growth` times the `size` of the file, with room for small lists, names and messages.
+/// out of proportion to the `size` of the file.
 template <class Read>
-void check_mesh(std::size_t size, std::size_t growth, Read&& read) {
-  const LargestAllocation limit(growth * size + 4096);
+void check_mesh(std::size_t size, Read&& read) {
+  const LargestAllocation limit(size);
   try {
     const Mesh mesh = read();
     const auto check = [&](const auto& ids) {

@@ -17,9 +17,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     overrides.push_back(text.substr(end + 1));
     text.resize(end);
   }
-  // The keys are made once. A document is a tree, whose arrays take up to 16 bytes for two of text ("1,").
-  static const std::string keys = describe_case_keys();
-  const fuzz::LargestAllocation limit(16 * size + 16384);
+  static const std::string keys = describe_case_keys();  // made once
+  const fuzz::LargestAllocation limit(size);
   try {
     const std::string resolved = resolved_case(parse_case(text, "/fuzz/case.toml", overrides));
     if (resolved_case(parse_case(resolved, "/elsewhere/case.toml")) != resolved) std::abort();

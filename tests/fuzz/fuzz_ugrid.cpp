@@ -5,7 +5,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   using namespace alphadot;
   const std::string_view content = fuzz::text(data, size);
   for (const Encoding encoding : {Encoding::big_endian, Encoding::little_endian})
-    fuzz::check_mesh(size, fuzz::binary_growth, [&] { return read_ugrid(content, "fuzz", encoding); });
+    fuzz::check_mesh(size, [&] { return read_ugrid(content, "fuzz", encoding); });
+  const fuzz::LargestAllocation limit(size);
   try {
     read_mapbc(content, "fuzz.mapbc");
   } catch (const InputError&) {

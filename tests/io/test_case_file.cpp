@@ -12,9 +12,12 @@
 #include "io/case_keys.hpp"
 #include "io/case_words.hpp"
 #include "io/suggestion.hpp"
+#include "support/counted_memory.hpp"
 
 namespace alphadot {
 namespace {
+
+using testing_support::memory;
 
 const std::string minimal = R"(
 [mesh]
@@ -260,6 +263,26 @@ TEST(CaseFile, DeepNestingIsRefused) {
   EXPECT_FALSE(problems_of("x = " + repeated("{a.a.a.a.a.a.a.a = [\n", 20000)).empty());
   EXPECT_FALSE(problems_of(minimal, {"space.order=" + repeated("[", 100000)}).empty());
   EXPECT_FALSE(problems_of(minimal, {repeated("a.", 100000) + "=1"}).empty());
+}
+
+/// No block of memory above twice the file and 16 KiB; the pointers of a TOML array would take 16 bytes for
+/// two.
+TEST(CaseFile, LongFilesStayWithinBoundedMemory) {
+  std::string keys, tables, numbers = "x = [", texts;
+  for (int i = 0; i < 20'000; ++i) {
+    keys += "k" + std::to_string(i) + "=1\n";
+    tables += "[[a]]\n";
+    numbers += "1,";
+    texts += "boundary.b" + std::to_string(i) + " = \"wall\"\n";
+  }
+  describe_case_keys();  // the keys are made once
+  for (const std::string& text :
+       {keys, tables, numbers + "]\n", texts, "x = \"" + std::string(100'000, 'y') + "\"\n",
+        std::string(100'000, 'k') + " = 1\n", "#" + std::string(100'000, 'c')}) {
+    memory.reset();
+    EXPECT_FALSE(problems_of(text).empty());
+    EXPECT_LE(memory.largest, 2 * text.size() + 16384) << text.substr(0, 20);
+  }
 }
 
 /// Deterministic mutants of a good file: whatever they say, the answer is a Case or an InputError. 2,000 of

@@ -7,9 +7,13 @@
 
 #include "core/error.hpp"
 #include "motion/motion.hpp"
+#include "support/counted_memory.hpp"
+#include "support/mutants.hpp"
 
 namespace alphadot {
 namespace {
+
+using testing_support::memory;
 
 // Slopes from parabolas: a quadratic is reproduced wherever its points are.
 TEST(Curve, ReproducesAQuadratic) {
@@ -91,6 +95,41 @@ TEST(MotionTable, NamesFileAndLineOfWhatIsWrong) {
   expect("t_star z\n0.5 0\n1 1\n", 2, "start at 0");
   expect("t_star z\n0 0\n\n1 1\n1 2\n", 5, "increase");
   expect("t_star z alpha\n0 0 0\n1 1 1\n", 0, "both alpha and a position");
+}
+
+/// Whatever is in a file: a table or an InputError, and no block of memory above twice the file and 16 KiB.
+TEST(MotionTable, MutantsNeverDoWorseThanAnInputError) {
+  const std::string sound =
+      "# a pull-up\nt_star, theta x y z\n0 0 0 0 0\n2.5, 1, 0, 0, 0 # half way\n5 4 0.1 0 -2e-1\n";
+  testing_support::Random random(20240607);
+  int read = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const std::string text = testing_support::mutant(sound, random);
+    memory.reset();
+    try {
+      EXPECT_GT(parse_motion_table(text, "motion.csv").end, 0) << text;
+      ++read;
+    } catch (const InputError& error) {
+      EXPECT_FALSE(error.problems().empty());
+    }
+    EXPECT_LE(memory.largest, 2 * text.size() + 16384) << text;
+  }
+  EXPECT_GT(read, 20);
+  EXPECT_LT(read, 1500);
+}
+
+TEST(MotionTable, ShortRowsStayWithinBoundedMemory) {
+  std::string rows = "t_star\n", empty = "t_star z alpha\n" + std::string(100'000, '\n');
+  for (int i = 0; i < 9'000; ++i) rows += std::to_string(i) + "\n";
+  for (const auto& text : {rows, empty}) {
+    memory.reset();
+    try {
+      EXPECT_EQ(parse_motion_table(text, "motion.csv").end, 8'999);
+    } catch (const InputError& error) {
+      EXPECT_EQ(&text == &rows, false) << error.what();
+    }
+    EXPECT_LE(memory.largest, 2 * text.size() + 16384);
+  }
 }
 
 // A table of a pitch is the pitch; of a plunge's alpha, the plunge.

@@ -1,42 +1,17 @@
 // Damaged mesh files: whatever is in one, a reader gives a mesh whose ids are in range or an InputError, and
 // takes no more memory than in proportion to the file.
-#include <malloc.h>
-
-#include <atomic>
-#include <cstdlib>
-#include <new>
-#include <random>
-
 #include "io/gmsh_reader.hpp"
 #include "io/readers/small_meshes.hpp"
 #include "io/su2_reader.hpp"
 #include "io/ugrid_reader.hpp"
-
-namespace {
-
-// Bytes in use and their peak. Atomic, because MPI has threads of its own.
-std::atomic<std::size_t> in_use{0};
-std::atomic<std::size_t> peak{0};
-
-}  // namespace
-
-void* operator new(std::size_t size) {
-  void* const block = std::malloc(size);
-  if (block == nullptr) throw std::bad_alloc();
-  in_use += malloc_usable_size(block);
-  peak = std::max(peak.load(), in_use.load());
-  return block;
-}
-void operator delete(void* block) noexcept {
-  in_use -= malloc_usable_size(block);
-  std::free(block);
-}
-void operator delete(void* block, std::size_t) noexcept {
-  operator delete(block);
-}
+#include "support/counted_memory.hpp"
+#include "support/mutants.hpp"
 
 namespace alphadot {
 namespace {
+
+using testing_support::memory;
+using testing_support::Random;
 
 using Read = Mesh (*)(const std::string&);
 
@@ -67,51 +42,6 @@ std::vector<Original> originals() {
           {"UGRID little-endian", test::ugrid(Encoding::little_endian), little}};
 }
 
-using Random = std::mt19937;
-
-/// Some place in [0, size); the modulo, unlike a distribution, gives the same with every library.
-std::size_t below(std::size_t size, Random& random) {
-  return random() % size;
-}
-
-/// Changes `content` in one way: bits, bytes, numbers or whole stretches.
-void damage(std::string& content, Random& random) {
-  if (content.empty()) return;
-  const std::size_t place = below(content.size(), random);
-  const std::size_t length = std::min(content.size() - place, 1 + below(40, random));
-  switch (below(7, random)) {
-    case 0:
-      content[place] = static_cast<char>(content[place] ^ (1 << below(8, random)));
-      break;
-    case 1:
-      content[place] = static_cast<char>(random());
-      break;
-    case 2:
-      content.resize(place);
-      break;
-    case 3:
-      content.erase(place, length);
-      break;
-    case 4:
-      content.insert(place, content.substr(below(content.size(), random), length));
-      break;
-    case 5: {
-      const char* const words[] = {
-          " -1 ", " 2147483647 ", " 9223372036854775807 ", " 1e999 ", " nan ", "\n$Nodes\n", "="};
-      const std::string word = words[below(std::size(words), random)];
-      content.replace(place, std::min(length, word.size()), word);
-      break;
-    }
-    case 6: {
-      const std::int32_t values[] = {-1, 0, 0x7fffffff, -0x7fffffff - 1, 0x7ff00000};
-      const std::int32_t value = values[below(std::size(values), random)];
-      content.replace(place, std::min<std::size_t>(length, 4),
-                      test::Writer(native_encoding).ints({value}).content());
-      break;
-    }
-  }
-}
-
 /// Expects point ids in range.
 void check_ids(const Mesh& mesh) {
   const auto check = [&](const auto& ids) {
@@ -121,6 +51,11 @@ void check_ids(const Mesh& mesh) {
   for (const auto& cell : mesh.cells) check(cell);
   for (const Patch& patch : mesh.patches)
     for (const auto& triangle : patch.triangles) check(triangle);
+}
+
+/// What io/bounded_growth.hpp promises of every block.
+std::size_t largest_block(const std::string& content) {
+  return 2 * content.size() + 16384;
 }
 
 TEST(MeshMutants, GiveAMeshOrAnInputErrorWithinBoundedMemory) {
@@ -133,12 +68,11 @@ TEST(MeshMutants, GiveAMeshOrAnInputErrorWithinBoundedMemory) {
   double largest_share = 0;
   for (int i = 0; i < mutants; ++i) {
     const Original& original = files[static_cast<std::size_t>(i) % files.size()];
-    std::string content = original.content;
-    for (std::size_t times = 1 + below(3, random); times > 0; --times) damage(content, random);
+    const std::string content = testing_support::mutant(original.content, random);
     SCOPED_TRACE(testing::Message() << "mutant " << i << " of " << original.format);
 
-    const std::size_t before = in_use;
-    peak = before;
+    const std::size_t before = memory.in_use;
+    memory.reset();
     try {
       check_ids(original.read(content));
       ++read;
@@ -146,9 +80,9 @@ TEST(MeshMutants, GiveAMeshOrAnInputErrorWithinBoundedMemory) {
       EXPECT_STRNE(error.what(), "");
       ++refused;
     }
-    const std::size_t taken = peak - before;
+    const std::size_t taken = memory.peak - before;
     EXPECT_LE(taken, 2 * content.size() + fixed) << content.size() << " bytes of file";
-    EXPECT_EQ(in_use, before) << "memory is lost";
+    EXPECT_EQ(memory.in_use, before) << "memory is lost";
     largest_share =
         std::max(largest_share, static_cast<double>(taken) / static_cast<double>(fixed + content.size()));
   }
@@ -160,21 +94,86 @@ TEST(MeshMutants, GiveAMeshOrAnInputErrorWithinBoundedMemory) {
   RecordProperty("largest_share_of_file_and_4_KiB", std::to_string(largest_share));
 }
 
-/// A sound text file whose numbers are as short as they can be costs the most memory for its length.
+TEST(MeshMutants, OfNamesGiveNamesOrAnInputError) {
+  const std::string sound = "3\n1 4000 wing upper\n2  5000  farfield\r\n7 6662\n";
+  Random random(20240229);
+  int read = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const std::string content = testing_support::mutant(sound, random);
+    memory.reset();
+    try {
+      read_mapbc(content, "mutant.mapbc");
+      ++read;
+    } catch (const InputError& error) {
+      EXPECT_STRNE(error.what(), "");
+    }
+    EXPECT_LE(memory.largest, largest_block(content)) << content;
+  }
+  EXPECT_GT(read, 200);
+  EXPECT_LT(read, 1800);
+}
+
+std::string repeated(const std::string& text, int count) {
+  std::string out;
+  for (int i = 0; i < count; ++i) out += text;
+  return out;
+}
+
+std::string numbered(int count) {
+  std::string out;
+  for (int i = 1; i <= count; ++i) out += std::to_string(i) + "\n";
+  return out;
+}
+
+/// Text whose numbers are as short as they can be costs the most memory for its length: what may be a mesh is
+/// read, what repeats its points or elements without an end is refused before it takes more.
 TEST(MeshMutants, ShortNumbersStayWithinBoundedMemory) {
   constexpr int count = 100'000;
-  std::string nodes = "$Nodes\n1 " + std::to_string(count) + " 1 1\n3 1 0 " + std::to_string(count) + "\n";
-  for (int i = 1; i <= count; ++i) nodes += std::to_string(i) + "\n";
-  for (int i = 1; i <= count; ++i) nodes += "0 0 0\n";
-  std::string elements =
-      "$Elements\n1 " + std::to_string(count) + " 1 1\n3 1 4 " + std::to_string(count) + "\n";
-  for (int i = 1; i <= count; ++i) elements += "1 1 2 3 4\n";
-  const std::string content =
-      "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n" + nodes + "$EndNodes\n" + elements + "$EndElements\n";
-  const std::size_t before = in_use;
-  peak = before;
-  EXPECT_EQ(read_gmsh(content, "short.msh").cells.size(), static_cast<std::size_t>(count));
-  EXPECT_LE(peak - before, 4 * content.size());
+  const std::string n = std::to_string(count), gmsh_41 = "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n",
+                    gmsh_22 = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n";
+  const auto nodes = [&](const std::string& tags) {
+    return "$Nodes\n1 " + n + " 1 1\n3 1 0 " + n + "\n" + tags + repeated("0 0 0\n", count) + "$EndNodes\n";
+  };
+  const std::string elements =
+      "$Elements\n1 " + n + " 1 1\n3 1 4 " + n + "\n" + repeated("1 1 2 3 4\n", count);
+  const std::string five_nodes =
+      "$Nodes\n5\n" + repeated("0 0 0\n", 0) + "1 0 0 0\n2 0 0 0\n3 0 0 0\n4 0 0 0\n5 0 0 0\n$EndNodes\n";
+  const struct {
+    const char* what;
+    std::string content;
+    bool is_mesh;
+  } files[] = {
+      {"x.msh", gmsh_41 + nodes(numbered(count)) + elements + "$EndElements\n", true},
+      {"same tags.msh", gmsh_41 + nodes(repeated("1\n", count)) + elements + "$EndElements\n", false},
+      {"cells.msh",
+       gmsh_22 + five_nodes + "$Elements\n" + n + "\n" + repeated("1 4 0 1 2 3 4\n", count) +
+           "$EndElements\n",
+       false},
+      {"groups.msh",
+       gmsh_41 + "$Entities\n0 0 1 0\n1 0 0 0 0 0 0 " + n + " " + repeated("1 ", count) + "0\n$EndEntities\n",
+       false},
+      {"names.msh", gmsh_41 + "$PhysicalNames\n" + n + "\n" + repeated("2 1 \"\"\n", count), false},
+      {"points.su2",
+       "NDIME= 3\nNELEM= 1\n10 0 1 2 3\nNPOIN= " + n + "\n" + repeated("0 0 0\n", count) + "NMARK= 0\n",
+       false},
+      {"cells.su2",
+       "NDIME= 3\nNPOIN= 4\n" + repeated("0 0 0\n", 4) + "NELEM= " + n + "\n" +
+           repeated("10 0 1 2 3\n", count) + "NMARK= 0\n",
+       false}};
+  for (const auto& [name, content, is_mesh] : files) {
+    SCOPED_TRACE(name);
+    const std::size_t before = memory.in_use;
+    memory.reset();
+    const auto read = [&, file = std::string(name)] {
+      return file.ends_with(".su2") ? read_su2(content, file) : read_gmsh(content, file);
+    };
+    if (is_mesh)
+      EXPECT_EQ(read().cells.size(), static_cast<std::size_t>(count));
+    else
+      EXPECT_THROW(read(), InputError);
+    EXPECT_LE(memory.largest, largest_block(content));
+    EXPECT_LE(memory.peak - before, 4 * content.size());
+  }
 }
 
 }  // namespace

@@ -71,14 +71,16 @@ TEST(UgridErrors, Records) {
 }
 
 TEST(UgridErrors, TooManyPatches) {
-  // As many surfaces as triangles.
-  const std::int32_t count = 10'001;
-  test::Writer writer(Encoding::big_endian);
-  writer.ints({4, count, 0, 1, 0, 0, 0}).reals({0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1});
-  for (std::int32_t i = 0; i < count; ++i) writer.ints({1, 2, 3});
-  for (std::int32_t i = 0; i < count; ++i) writer.ints({i});
-  writer.ints({1, 2, 3, 4});
-  expect_parts(error_in(writer.content()), {"more than 10000 boundary patches"});
+  const auto as_many_as_triangles = [](std::int32_t count) {
+    test::Writer writer(Encoding::big_endian);
+    writer.ints({4, count, 0, 1, 0, 0, 0}).reals({0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1});
+    for (std::int32_t i = 0; i < count; ++i) writer.ints({1, 2, 3});
+    for (std::int32_t i = 0; i < count; ++i) writer.ints({i});
+    return writer.ints({1, 2, 3, 4}).content();
+  };
+  expect_parts(error_in(as_many_as_triangles(100'000)), {"more than 10000 boundary patches"});
+  // In 28 + 96 + 1,000 * 16 + 16 bytes: one for each 128 of them, and 64.
+  expect_parts(error_in(as_many_as_triangles(1000)), {"more than 190 boundary patches"});
 }
 
 TEST(UgridErrors, Truncation) {

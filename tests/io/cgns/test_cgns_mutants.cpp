@@ -1,0 +1,75 @@
+// Damaged CGNS files: whatever is in one, the converter gives a mesh whose ids are in range or an InputError,
+// and takes no block of memory out of proportion to the file.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <fstream>
+
+#include "core/error.hpp"
+#include "io/cgns/cgns_file.hpp"
+#include "io/cgns/cgns_reader.hpp"
+#include "io/temporary_folder.hpp"
+#include "support/box_mesh.hpp"
+#include "support/counted_memory.hpp"
+#include "support/mutants.hpp"
+
+namespace alphadot {
+namespace {
+
+using testing_support::memory;
+
+enum class Ending { mesh, refused, wrong };
+
+Ending convert(const std::string& path, std::size_t size) {
+  memory.reset();
+  Ending ending = Ending::refused;
+  try {
+    const Mesh mesh = read_cgns(path, [](const std::string&) {});
+    ending = Ending::mesh;
+    for (const auto& cell : mesh.cells)
+      for (const GlobalIndex point : cell)
+        if (point < 0 || point >= std::ssize(mesh.points)) return Ending::wrong;
+  } catch (const InputError&) {
+    // Refusing is as good.
+  }
+  return memory.largest <= 2 * size + 16384 ? ending : Ending::wrong;
+}
+
+/// Each mutant in a process of its own, as the converter is: after an error the CGNS library gives errors for
+/// sound files too.
+TEST(CgnsMutants, GiveAMeshOrAnInputError) {
+  const TemporaryFolder folder;
+  const std::string path = folder / "mesh.cgns";
+  {
+    const Mesh mesh = testing_support::box_mesh({.cells = {2, 2, 2}, .upper = {1, 1, 1}});
+    test::CgnsFile file(path);
+    file.add_zone(mesh);
+    file.add_section("Volume", CGNS_ENUMV(TETRA_4), mesh.cells);
+    for (const auto& patch : mesh.patches) file.add_section(patch.name, CGNS_ENUMV(TRI_3), patch.triangles);
+  }
+  std::ifstream in(path, std::ios::binary);
+  const std::string content(std::istreambuf_iterator<char>(in), {});
+  testing_support::Random random(20240229);
+  int meshes = 0, refused = 0;
+  for (int i = 0; i < 500; ++i) {
+    SCOPED_TRACE(testing::Message() << "mutant " << i);
+    const std::string mutant = testing_support::mutant(content, random);
+    std::ofstream(path, std::ios::binary) << mutant;
+    const pid_t child = fork();
+    ASSERT_GE(child, 0);
+    if (child == 0) _exit(static_cast<int>(convert(path, mutant.size())));
+    int status = 0;
+    ASSERT_EQ(waitpid(child, &status, 0), child);
+    ASSERT_TRUE(WIFEXITED(status)) << "ended by signal " << WTERMSIG(status);
+    const auto ending = static_cast<Ending>(WEXITSTATUS(status));
+    EXPECT_NE(ending, Ending::wrong);
+    meshes += ending == Ending::mesh;
+    refused += ending == Ending::refused;
+  }
+  EXPECT_GT(meshes, 5);
+  EXPECT_GT(refused, 200);
+}
+
+}  // namespace
+}  // namespace alphadot
