@@ -107,6 +107,8 @@ std::vector<CaseKey> make_keys() {
       .key("scheme", &SteadySettings::scheme, WordValue{words_of<SchemeKind>}, "implicit scheme")
       .key("sweeps", &SteadySettings::sweeps, count,
            "pairs of forward and backward passes of the block scheme")
+      .key("krylov_directions", &SteadySettings::krylov_directions, IntegerValue{.from = 0, .to = 1000},
+           "at most so many directions a step of GMRES, preconditioned by the scheme; 0: the scheme alone")
       .key("cfl_start", &SteadySettings::cfl_start, positive, "first CFL number")
       .key("cfl_max", &SteadySettings::cfl_max, positive, "largest CFL number")
       .key("cfl_growth", &SteadySettings::cfl_growth, NumberValue{.from = 1, .to = 100},

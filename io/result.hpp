@@ -31,6 +31,7 @@ struct PerformanceResult {
   Real steady_wall_s = not_measured,
        steady_cpu_s = not_measured;  ///< of these, the march to the steady state
   Real motion_cpu_s = not_measured;  ///< of these, the march along the motion
+  Real linear_cpu_s = not_measured;  ///< of these, the linear solves for the derivatives
   std::int64_t iterations = 0;
   Real core_us_per_cell_iteration = not_measured;
   Real bytes_per_cell = not_measured;          ///< of the solver's and the mesh's arrays
@@ -65,6 +66,7 @@ struct Result {
   std::map<std::string, NamedValues> components;        ///< the same by patch
   std::vector<std::string> excluded;                    ///< patches left out of the forces (sting, jet)
   std::map<std::string, DerivativeResult> derivatives;  ///< by name, "Cm_alphadot"; per radian
+  NamedValues longitudinal;  ///< static margin, neutral point, limits of quasi-steady flight; may be empty
   PerformanceResult performance;
   Provenance provenance;
 };

@@ -20,6 +20,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[1]
 BUILD = ROOT / "build-bench"
 CASE = ROOT / "cases" / "basic_finner" / "derivatives.toml"
+PLUNGE = CASE.with_name("plunge.toml")
 ORDERS = 6
 
 # Open MPI refuses to run as root unless it is told to; each rank is to have a core of its own.
@@ -58,21 +59,24 @@ def kernels(repetitions: int) -> dict[str, dict[str, float]]:
     return out
 
 
+def run(verb: str, case: Path, *settings: str, ranks: int = 1) -> dict:
+    """The result of one run of the program."""
+    with tempfile.TemporaryDirectory() as folder:
+        overrides = [word for setting in (*settings, "output.flow=false", "output.surface=false") for word in ("--set", setting)]
+        command = ["mpirun", "-n", str(ranks), BUILD / "alphadot", verb, case, "--out", folder, "--quiet", *overrides]
+        done = subprocess.run(command, capture_output=True, text=True, env=ENVIRONMENT)
+        if done.returncode:
+            sys.exit(f"bench.py: {done.stderr}")
+        result = json.loads((Path(folder) / "result.json").read_text())
+    if result["status"] not in ("converged", "completed"):
+        sys.exit(f"bench.py: {result['message']}")
+    return result
+
+
 def steady(ranks: int, repetitions: int) -> dict:
     """A steady solve by the program with its defaults; the least wall and processor seconds of the march."""
-    runs = []
-    for _ in range(repetitions):
-        with tempfile.TemporaryDirectory() as folder:
-            settings = [f"steady.orders={ORDERS}", "output.flow=false", "output.surface=false"]
-            overrides = [word for setting in settings for word in ("--set", setting)]
-            command = ["mpirun", "-n", str(ranks), BUILD / "alphadot", "run", CASE, "--out", folder, "--quiet", *overrides]
-            done = subprocess.run(command, capture_output=True, text=True, env=ENVIRONMENT)
-            if done.returncode:
-                sys.exit(f"bench.py: {done.stderr}")
-            runs.append(json.loads((Path(folder) / "result.json").read_text()))
-    if any(run["status"] != "converged" for run in runs):
-        sys.exit(f"bench.py: {runs[0]['message']}")
-    performance = [run["performance"] for run in runs]
+    runs = [run("run", CASE, f"steady.orders={ORDERS}", ranks=ranks) for _ in range(repetitions)]
+    performance = [entry["performance"] for entry in runs]
     return {
         "ranks": ranks,
         "cells": runs[0]["mesh"]["cells"],
@@ -81,6 +85,26 @@ def steady(ranks: int, repetitions: int) -> dict:
         "cpu_s": min(entry["steady_cpu_s"] for entry in performance),
         "bytes_per_cell": performance[0]["bytes_per_cell"],
         "program": runs[0]["provenance"],
+    }
+
+
+def linear_solves(repetitions: int) -> dict:
+    """The linear solves for alpha, q and alphadot after a steady state of so many orders; least processor seconds of both."""
+    runs = [run("derivatives", CASE, f"steady.orders={ORDERS}")["performance"] for _ in range(repetitions)]
+    return {name: min(entry[name] for entry in runs) for name in ("linear_cpu_s", "steady_cpu_s")}
+
+
+def motions(mesh: Path) -> dict:
+    """Processor seconds of the two motions that give the same derivatives, one and a half cycles each at k = 0.01, of the linear
+    solves, and of the steady states before them (the motions can share one)."""
+    at = f"mesh.file={mesh.resolve()}"
+    plunge, pitch = (run("run", PLUNGE, at, f"motion.kind={kind}")["performance"] for kind in ("plunge", "pitch"))
+    linear = run("derivatives", CASE, at)["performance"]
+    return {
+        "plunge_cpu_s": plunge["motion_cpu_s"],
+        "pitch_cpu_s": pitch["motion_cpu_s"],
+        "linear_cpu_s": linear["linear_cpu_s"],
+        "steady_cpu_s": linear["steady_cpu_s"],
     }
 
 
@@ -95,11 +119,14 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--out", type=Path, default=ROOT / "runs" / "bench.json", help="file to write (default: runs/bench.json)")
     parser.add_argument("--repetitions", type=int, default=5, help="of everything (default: 5)")
+    parser.add_argument("--motions", type=Path, metavar="MESH",
+                        help="also plunge and pitch on this mesh beside the linear solves: minutes; the target is for the medium mesh")
     arguments = parser.parse_args()
 
     record = machine()
     timed = kernels(arguments.repetitions)
     one, two = (steady(ranks, arguments.repetitions) for ranks in (1, 2))
+    linear = linear_solves(arguments.repetitions)
     program = one.pop("program")
     del two["program"]
     per_100k = 1e5 / one["cells"]
@@ -111,7 +138,16 @@ def main() -> None:
         figure("memory, matrix-free LU-SGS", "bytes/cell", timed["lu_sgs_iteration"]["bytes_per_cell"], at_most=700),
         figure("memory, block LU-SGS", "bytes/cell", timed["block_lu_sgs_iteration"]["bytes_per_cell"], at_most=1400),
         figure("two ranks over one, six orders", "ratio of wall times", one["wall_s"] / two["wall_s"], at_least=1.85),
+        figure("alpha, q, alphadot over six orders", "ratio of s of a core", linear["linear_cpu_s"] / linear["steady_cpu_s"], at_most=1.3),
     ]
+    in_time = {}
+    if arguments.motions:
+        in_time = motions(arguments.motions)
+        both, once, before = in_time["plunge_cpu_s"] + in_time["pitch_cpu_s"], in_time["linear_cpu_s"], in_time["steady_cpu_s"]
+        figures += [
+            figure("plunge and pitch over linear solves", "ratio of s of a core", both / once, at_least=25),
+            figure("the same with the steady state in both", "ratio of s of a core", (both + before) / (once + before), at_least=25),
+        ]
     out = {
         "date": datetime.datetime.now(datetime.timezone.utc).isoformat(timespec="seconds"),
         "machine": record,
@@ -120,6 +156,8 @@ def main() -> None:
         "figures": figures,
         "kernels": timed,
         "steady": [one, two],
+        "linear": linear,
+        "motions": in_time,
     }
     arguments.out.parent.mkdir(parents=True, exist_ok=True)
     arguments.out.write_text(json.dumps(out, indent=2) + "\n")

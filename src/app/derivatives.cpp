@@ -146,16 +146,29 @@ void write_tables(const FlowCase& flow, const DerivativeSet& derivatives, const 
   replace_file_with(stem + ".jsbsim.xml", jsbsim_aerodynamics(point));
 }
 
-void print_static_margin(const Case& settings, const DerivativeSet& derivatives) {
-  if (!spdlog::should_log(spdlog::level::info)) return;
+/// Where the configuration balances, about the moment centre, and up to which reduced frequency its
+/// derivatives describe a plunge to 1 %.
+NamedValues longitudinal_of(const Case& settings, const DerivativeSet& derivatives) {
   const auto& alpha = derivatives.at(Variable::alpha);
   const auto margin = static_margin(alpha.CN, alpha.Cm);
-  fmt::print("Static margin {:.4f} lengths, neutral point x = {:.4f}\n", margin.value,
-             settings.reference.moment_center.x + margin.value * settings.reference.length);
-  if (const auto second = derivatives.find(Variable::alphaddot); second != derivatives.end())
-    fmt::print("Quasi-steady to 1 % up to a reduced frequency of {:.3g} in CN, {:.3g} in Cm\n",
-               quasi_steady_limit(alpha.CN.value, second->second.CN.value, 0.01),
-               quasi_steady_limit(alpha.Cm.value, second->second.Cm.value, 0.01));
+  const Real length = settings.reference.length;
+  NamedValues out{{"static_margin", margin.value},
+                  {"static_margin_uncertainty", margin.uncertainty},
+                  {"neutral_point_x", settings.reference.moment_center.x + margin.value * length},
+                  {"neutral_point_uncertainty", margin.uncertainty * length}};
+  if (const auto second = derivatives.find(Variable::alphaddot); second != derivatives.end()) {
+    constexpr Real share = 0.01;
+    out.emplace_back("quasi_steady_k_of_CN",
+                     quasi_steady_limit(alpha.CN.value, second->second.CN.value, share));
+    out.emplace_back("quasi_steady_k_of_Cm",
+                     quasi_steady_limit(alpha.Cm.value, second->second.Cm.value, share));
+  }
+  return out;
+}
+
+void print(const NamedValues& longitudinal) {
+  if (!spdlog::should_log(spdlog::level::info)) return;
+  for (const auto& [name, value] : longitudinal) fmt::print("{:<26} {:.5g}\n", name, value);
 }
 
 }  // namespace
@@ -167,11 +180,10 @@ RunStatus derivatives_verb(const CaseArguments& arguments, const Communicator& c
   flow.announce();
   DerivativeSet derivatives;
   RunStatus status = RunStatus::error;
+  Real linear_cpu = not_measured;
   try {
-    const Timer steady_time;
     status = flow.march();
-    const Real steady_cpu = comm.sum(steady_time.cpu());
-    const Timer linear_time;
+    const Timer timer;
     if (status != RunStatus::interrupted) {
       flow.progress().begin_linear_solves();
       derivatives = solve_all(flow);
@@ -180,8 +192,7 @@ RunStatus derivatives_verb(const CaseArguments& arguments, const Communicator& c
       status = RunStatus::interrupted;
       flow.set_message(flow.checkpoints().stop_reason());
     }
-    spdlog::info("steady state {:.1f} s of processor, linear solves {:.1f} s", steady_cpu,
-                 comm.sum(linear_time.cpu()));
+    linear_cpu = timer.cpu();
   } catch (const DivergedError& error) {
     status = RunStatus::diverged;
     flow.report_divergence(error);
@@ -189,11 +200,15 @@ RunStatus derivatives_verb(const CaseArguments& arguments, const Communicator& c
 
   const auto rows = rows_of(
       derivatives, fmt::format("linear solve, k -> 0, {}", word_of(flow.settings().derivatives.method)));
-  const Result result = flow.result(status, rows);
+  Result result = flow.result(status, rows);
+  result.performance.linear_cpu_s = comm.sum(linear_cpu);
+  if (!rows.empty()) result.longitudinal = longitudinal_of(flow.settings(), derivatives);
   if (!rows.empty()) comm.on_root([&] { write_tables(flow, derivatives, rows); });
   flow.write(result);
   flow.print(result, rows);
-  if (!rows.empty()) print_static_margin(flow.settings(), derivatives);
+  print(result.longitudinal);
+  spdlog::info("of these, steady state {:.1f} s of processor, linear solves {:.1f} s",
+               result.performance.steady_cpu_s, result.performance.linear_cpu_s);
   return status;
 }
 

@@ -19,6 +19,7 @@
 #include "io/case_file.hpp"
 #include "io/files.hpp"
 #include "solver/block_lu_sgs.hpp"
+#include "solver/gmres.hpp"
 #include "solver/lu_sgs.hpp"
 
 namespace alphadot {
@@ -27,8 +28,13 @@ namespace {
 
 std::unique_ptr<LinearSolver> make_linear_solver(const Discretization& discretization,
                                                  const Communicator& comm, const SteadySettings& settings) {
-  if (settings.scheme == SchemeKind::lu_sgs) return std::make_unique<LuSgs>(discretization, comm);
-  return std::make_unique<BlockLuSgs>(discretization, comm, settings.sweeps);
+  std::unique_ptr<LinearSolver> out;
+  if (settings.scheme == SchemeKind::lu_sgs)
+    out = std::make_unique<LuSgs>(discretization, comm);
+  else
+    out = std::make_unique<BlockLuSgs>(discretization, comm, settings.sweeps);
+  if (settings.krylov_directions == 0) return out;
+  return std::make_unique<Gmres>(discretization, comm, std::move(out), settings.krylov_directions);
 }
 
 std::string run_folder(const CaseArguments& arguments, const Case& settings) {

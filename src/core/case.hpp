@@ -54,7 +54,8 @@ struct SpaceSettings {
 
 struct SteadySettings {
   SchemeKind scheme = SchemeKind::block_lu_sgs;
-  int sweeps = 4;  ///< pairs of forward and backward passes of the block scheme
+  int sweeps = 4;             ///< pairs of forward and backward passes of the block scheme
+  int krylov_directions = 0;  ///< of GMRES around the scheme; 0: the scheme alone
   Real cfl_start = 20, cfl_max = 1e6, cfl_growth = 2;
   int max_iterations = 2000;
   Real orders = 10;  ///< decades that the density residual must drop

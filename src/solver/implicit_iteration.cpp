@@ -17,7 +17,9 @@ ImplicitIteration::ImplicitIteration(const Discretization& discretization, const
       flow_(discretization.domain(), comm),
       residual_(discretization, comm),
       values_(static_cast<std::size_t>(discretization.domain().owned_cells)),
-      update_(values_.size()) {}
+      update_(values_.size()) {
+  solver_->attach(residual_);
+}
 
 void ImplicitIteration::set_uniform(const Primitive<Real>& state) {
   std::ranges::fill(flow_.values(), state);

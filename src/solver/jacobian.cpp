@@ -42,10 +42,8 @@ void add_time_term(Matrix& diagonal, const Primitive<Real>& w, Real scale, Real 
 }
 
 void face_terms(const Discretization& discretization, const FlowField<Real>& flow,
-                const Conditions<Real>& conditions, BlockMatrix& matrix, std::vector<Matrix>& diagonal,
-                std::vector<Real>& wave_speed) {
+                const Conditions<Real>& conditions, BlockMatrix& matrix, std::vector<Matrix>& diagonal) {
   const Subdomain& domain = discretization.domain();
-  const Real gamma = discretization.gamma();
   for (Index face = 0; face < static_cast<Index>(domain.faces.size()); ++face) {
     const auto [left, right] = domain.faces[face];
     const Real area = norm(domain.face_normal[face]);
@@ -57,19 +55,14 @@ void face_terms(const Discretization& discretization, const FlowField<Real>& flo
                from_right = numerical_flux(model, l, independent<5>(flow[right]), normal, Dual<5>(speed));
     add_derivative(diagonal[left], from_left, area);
     store_derivative(matrix.right_of(face), from_right, area);
-    const auto mean = Real{0.5} * (flow[left] + flow[right]);
-    const Real wave = area * spectral_radius(mean, normal, speed, gamma);
-    wave_speed[left] += wave;
     if (right >= domain.owned_cells) continue;
     add_derivative(diagonal[right], from_right, -area);
     store_derivative(matrix.left_of(face), from_left, -area);
-    wave_speed[right] += wave;
   }
 }
 
 void boundary_terms(const Discretization& discretization, const FlowField<Real>& flow,
-                    const Conditions<Real>& conditions, std::vector<Matrix>& diagonal,
-                    std::vector<Real>& wave_speed) {
+                    const Conditions<Real>& conditions, std::vector<Matrix>& diagonal) {
   const Subdomain& domain = discretization.domain();
   const Real gamma = discretization.gamma();
   const State outside = constant<5>(conditions.free_stream);
@@ -84,7 +77,6 @@ void boundary_terms(const Discretization& discretization, const FlowField<Real>&
                           ? wall_flux(boundary_pressure(kind, inside, normal, speed, gamma), normal, speed)
                           : far_field_flux(inside, outside, normal, speed, gamma);
     add_derivative(diagonal[face.cell], flux, area);
-    wave_speed[face.cell] += area * spectral_radius(flow[face.cell], normal, speed.v, gamma);
   }
 }
 
@@ -95,9 +87,9 @@ void assemble_jacobian(const Discretization& discretization, const FlowField<Rea
   const Subdomain& domain = discretization.domain();
   const auto cells = static_cast<std::size_t>(domain.owned_cells);
   std::vector<Matrix> diagonal(cells, Matrix{});
-  std::vector<Real> wave_speed(cells, 0);
-  face_terms(discretization, flow, conditions, matrix, diagonal, wave_speed);
-  boundary_terms(discretization, flow, conditions, diagonal, wave_speed);
+  const auto wave_speed = wave_speeds(discretization, flow, conditions);
+  face_terms(discretization, flow, conditions, matrix, diagonal);
+  boundary_terms(discretization, flow, conditions, diagonal);
   for (Index cell = 0; cell < domain.owned_cells; ++cell) {
     const Real scale = wave_speed[cell] / time.cfl + domain.volume[cell] * time.inverse_step;
     add_time_term(diagonal[cell], flow[cell], scale, discretization.gamma());

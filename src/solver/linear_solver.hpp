@@ -7,6 +7,7 @@
 #include "solver/conditions.hpp"
 #include "solver/discretization.hpp"
 #include "solver/flow_field.hpp"
+#include "solver/residual.hpp"
 
 namespace alphadot {
 
@@ -27,12 +28,17 @@ struct LinearSystem {
 class LinearSolver {
  public:
   virtual ~LinearSolver() = default;
+  /// Names the residual that steps will be taken on, once; schemes of their own linearisation pass it over.
+  virtual void attach(const Residual<Real>&) {}
   /// Linearises about `flow` (its ghosts current). May be skipped for a few iterations.
   virtual void linearise(const FlowField<Real>& flow, const Conditions<Real>& conditions,
                          const TimeTerms& time) = 0;
   /// Solves (time terms + dR/dW) update = -residual roughly, for several right-hand sides at once.
   /// Communicates.
   virtual void solve(std::span<const LinearSystem> systems) = 0;
+  /// The part that costs the same and does the same to every right-hand side: what a Krylov space can rest
+  /// on.
+  virtual LinearSolver& preconditioner() { return *this; }
   virtual std::size_t bytes() const = 0;
   virtual HaloTraffic halo_traffic() const = 0;
 };

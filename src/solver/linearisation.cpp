@@ -7,23 +7,15 @@
 namespace alphadot {
 
 Linearisation::Linearisation(const Discretization& discretization, const Communicator& comm,
-                             FlowField<Real>& flow, const Conditions<Real>& conditions)
+                             const FlowField<Real>& flow, const Reconstruction<Real>& reconstruction,
+                             const Conditions<Real>& conditions)
     : discretization_(discretization),
       comm_(comm),
       flow_(flow),
       conditions_(conditions),
       faces_(discretization.domain().faces.size()),
       boundary_faces_(discretization.domain().boundary_faces.size()) {
-  Reconstruction<Real> reconstruction(discretization, comm);
-  flow.start_exchange();
-  if (discretization.space().order > 1) {
-    reconstruction.update(flow);
-    reconstruction.start_exchange();
-    slopes_ = reconstruction.limiter_slopes(flow);
-    reconstruction.finish_exchange();
-  } else {
-    flow.finish_exchange();
-  }
+  if (discretization.space().order > 1) slopes_ = reconstruction.limiter_slopes(flow);
   differentiate_faces(reconstruction);
   differentiate_boundary(reconstruction);
 }

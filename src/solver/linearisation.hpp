@@ -32,9 +32,10 @@ class Linearisation {
     Real share;
   };
 
-  /// About a flow, whose ghosts are renewed. Refers to the flow. Collective.
-  Linearisation(const Discretization& discretization, const Communicator& comm, FlowField<Real>& flow,
-                const Conditions<Real>& conditions);
+  /// About a flow and its reconstruction, the ghosts of both current; a limiter frozen in it stays so. Refers
+  /// to the flow.
+  Linearisation(const Discretization& discretization, const Communicator& comm, const FlowField<Real>& flow,
+                const Reconstruction<Real>& reconstruction, const Conditions<Real>& conditions);
 
   const Discretization& discretization() const { return discretization_; }
   const Communicator& communicator() const { return comm_; }

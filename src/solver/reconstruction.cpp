@@ -208,6 +208,10 @@ LimiterSlope Reconstruction<T>::limiter_slope(Index cell, const FlowField<T>& fl
   const Primitive<Real>& w = flow[cell];
   LimiterSlope out{{{1, 1, 1, 1, 1}}, unlimited(cell, arms, w), {}, {}, {}, {}};
   out.extremum.fill(cell);
+  if (frozen_) {
+    for (int i = 0; i < 5; ++i) out.factor[i] = factors_[static_cast<std::size_t>(cell)][i];
+    return out;
+  }
   for (int i = 0; i < 5; ++i) {
     const auto entry = static_cast<std::size_t>(i);
     for (std::size_t corner = 0; corner < arms.size(); ++corner) {
@@ -229,9 +233,9 @@ LimiterSlope Reconstruction<T>::limiter_slope(Index cell, const FlowField<T>& fl
       out.by_delta[i] = factor.d[0];
       out.by_room[i] = factor.d[1];
       out.corner[entry] = static_cast<std::uint8_t>(corner);
-      const auto around = domain.point_cells[at];
-      out.extremum[entry] = *std::ranges::find_if(
-          around, [&, value = extremum_of(at)](Index other) { return flow[other][i] == value; });
+      const Real side = delta.v > 0 ? 1 : -1;
+      out.extremum[entry] = *std::ranges::max_element(domain.point_cells[at], {},
+                                                      [&](Index other) { return side * flow[other][i]; });
     }
   }
   return out;

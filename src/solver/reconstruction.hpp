@@ -72,8 +72,8 @@ class Reconstruction {
   void start_exchange() { gradients_.start_exchange(); }
   void finish_exchange() { gradients_.finish_exchange(); }
 
-  /// Of every owned cell, at the flow of the latest update (T = Real) with the limiter free; none without a
-  /// limiter. About what a few updates cost.
+  /// Of every owned cell, at the flow of the latest update (T = Real); none without a limiter. About what a
+  /// few updates cost.
   std::vector<LimiterSlope> limiter_slopes(const FlowField<T>& flow) const requires std::is_same_v<T, Real>;
   /// T = Changes: the slopes of the flow that changes, which must outlive the use; without any, gradients are
   /// not limited.

@@ -139,7 +139,7 @@ class Lockstep {
   void precondition(std::array<States, N>& out) {
     std::array<LinearSystem, N> systems;
     for (std::size_t k = 0; k < N; ++k) systems[k] = {images_[k], out[k]};
-    iteration_.linear_solver().solve(systems);
+    iteration_.linear_solver().preconditioner().solve(systems);
   }
 
   bool all_dropped(Real share) const {
@@ -244,6 +244,19 @@ class Lockstep {
   std::array<States, N> corrections_;
 };
 
+/// About the flow with its limiter free, as it is in a motion.
+Linearisation linearisation_of(ImplicitIteration& iteration, const Conditions<Real>& conditions) {
+  const Discretization& discretization = iteration.discretization();
+  Reconstruction<Real> reconstruction(discretization, iteration.communicator());
+  if (discretization.space().order > 1) {
+    iteration.flow().start_exchange();
+    reconstruction.update(iteration.flow());
+    reconstruction.start_exchange();
+    reconstruction.finish_exchange();
+  }
+  return {discretization, iteration.communicator(), iteration.flow(), reconstruction, conditions};
+}
+
 /// False when it was stopped.
 template <int N>
 bool solve_group(ImplicitIteration& iteration, const Linearisation& linearisation,
@@ -260,10 +273,10 @@ bool solve_group(ImplicitIteration& iteration, const Linearisation& linearisatio
 SensitivitySolver::SensitivitySolver(ImplicitIteration& iteration, const Conditions<Real>& conditions,
                                      const DerivativeSettings& settings, std::function<bool()> go_on)
     : iteration_(iteration),
-      linearisation_(iteration.discretization(), iteration.communicator(), iteration.flow(), conditions),
+      linearisation_(linearisation_of(iteration, conditions)),
       settings_(settings),
       go_on_(std::move(go_on)) {
-  iteration.linearise(conditions, {.cfl = linear_cfl});
+  iteration.linear_solver().preconditioner().linearise(iteration.flow(), conditions, {.cfl = linear_cfl});
 }
 
 std::vector<Sensitivity> SensitivitySolver::solve(const std::vector<SensitivityProblem>& problems) {

@@ -45,6 +45,8 @@ class DeltaWing(unittest.TestCase):
         for name, (value, tolerance) in THEORY.items():
             with self.subTest(name):
                 self.assertAlmostEqual(result["derivatives"][name]["value"], value, delta=tolerance * abs(value))
+        # Two thirds of the root chord, where the area has its centre, less what the thickness takes.
+        self.assertAlmostEqual(result["longitudinal"]["neutral_point_x"], 2 / 3 - 0.0085, delta=0.005)
 
 
 if __name__ == "__main__":

@@ -199,7 +199,8 @@ class Bench {
       in[k] = fields[k];
       out[k] = images[k];
     }
-    const Linearisation linearisation(discretization_, comm_, iteration_.flow(), conditions_);
+    const Linearisation linearisation(discretization_, comm_, iteration_.flow(),
+                                      iteration_.residual().reconstruction(), conditions_);
     Tangent<N> tangent(linearisation, {});
     const Real time = seconds(10, [&] { tangent.apply(in, {}, out); });
     return kernel(fmt::format("tangent of {}", N), time, tangent_bytes(domain_, N),

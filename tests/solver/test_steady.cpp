@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "ramp.hpp"
+#include "solver/gmres.hpp"
 #include "solver/lu_sgs.hpp"
 #include "steady_flow.hpp"
 
@@ -63,6 +64,22 @@ TEST_P(Steady, DoesNotDependOnTheImplicitScheme) {
   const SteadyFlow scalar(box, ramp_conditions(), orders, std::make_unique<LuSgs>(box.discretization, comm));
   EXPECT_EQ(scalar.result.status, RunStatus::converged);
   expect_same(states(scalar, box), states(block, box), 1e-9);
+}
+
+TEST_P(Steady, IsReachedByGmresAroundEitherScheme) {
+  const BoxCase box(mesh, ramp_sides(), space, comm);
+  const SteadyFlow block(box, ramp_conditions(), orders);
+  const auto gmres = [&](std::unique_ptr<LinearSolver> inside, int directions) {
+    return SteadyFlow(box, ramp_conditions(), orders,
+                      std::make_unique<Gmres>(box.discretization, comm, std::move(inside), directions));
+  };
+  const SteadyFlow about_block = gmres(std::make_unique<BlockLuSgs>(box.discretization, comm, 3), 20);
+  const SteadyFlow about_scalar = gmres(std::make_unique<LuSgs>(box.discretization, comm), 40);
+  for (const auto* steady : {&about_block, &about_scalar}) {
+    EXPECT_EQ(steady->result.status, RunStatus::converged);
+    expect_same(states(*steady, box), states(block, box), 1e-9);
+  }
+  EXPECT_LT(about_block.result.iterations, block.result.iterations);
 }
 
 // Where there is nothing to do, nothing is done: a uniform stream in an open box is steady.

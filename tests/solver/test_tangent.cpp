@@ -70,7 +70,11 @@ TEST_P(TangentTest, AgreesWithCentralDifferences) {
   const Vec3 wind{1.5, 0.1, -0.2};
   const Conditions<Real> conditions{free_stream(wind, gamma_air), tumbling_grid(), wind};
 
-  const Linearisation linearisation(box.discretization, box.comm, flow, conditions);
+  std::vector<Conserved<Real>> values(box.cells());
+  Residual<Real> residual(box.discretization, box.comm);
+  residual.evaluate(flow, conditions, 2, values);
+  const Linearisation linearisation(box.discretization, box.comm, flow, residual.reconstruction(),
+                                    conditions);
   Tangent<3> tangent(linearisation, center);
   std::array<std::vector<Primitive<Real>>, 3> fields;
   std::array<std::vector<Conserved<Real>>, 3> images;
@@ -106,7 +110,11 @@ TEST_P(TangentTest, VanishesForChangesOfTheWholeStream) {
   const auto conditions = steady_conditions(wind, {0.4, -0.6, 0.2}, gamma_air);
   FlowField<Real> flow(box.domain, box.comm);
   fill(flow, box.domain, [&](const Vec3&, GlobalIndex) { return conditions.free_stream; });
-  const Linearisation linearisation(box.discretization, box.comm, flow, conditions);
+  std::vector<Conserved<Real>> values(box.cells());
+  Residual<Real> residual(box.discretization, box.comm);
+  residual.evaluate(flow, conditions, 2, values);
+  const Linearisation linearisation(box.discretization, box.comm, flow, residual.reconstruction(),
+                                    conditions);
   Tangent<1> tangent(linearisation, center);
   for (const auto& change : changes) {
     const Primitive<Real> turn{{0, change.wind.x, change.wind.y, change.wind.z, 0}};
