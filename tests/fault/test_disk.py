@@ -13,6 +13,9 @@ from runs import CaseInFolder, LiveRun, checkpoints, differences, result, run, s
 
 SHORT = settings(unsteady_cycles=0.25, checkpoint_steps=1)
 
+LIVE = ("steady.csv", "progress.json")  # for who watches: a run does without
+OF_VERB = {"run": ("history.h5", "history.csv"), "derivatives": ("derivatives.csv", "derivatives.st", "derivatives.jsbsim.xml")}
+
 
 def largest_file(size: int) -> dict[str, object]:
     """Options of subprocess.run: no file of the run may grow above `size` bytes."""
@@ -50,6 +53,36 @@ class Disk(CaseInFolder):
                 done = run(self.folder, self.part, *SHORT, **largest_file(limit))
                 self.assert_says_why(done)
                 self.assert_kept_what_was_announced(done)
+
+    def test_each_file_alone_on_a_full_disk(self) -> None:
+        """Whichever file it is that does not fit, the error names it, and the run can go on."""
+        for verb in ("run", "derivatives"):
+            full, part = self.folder / f"full_{verb}", self.folder / f"part_{verb}"
+            self.assertEqual(run(self.folder, full, *SHORT, verb=verb).returncode, 0)
+            names = {file.name for file in full.iterdir() if file.name not in LIVE}
+            self.assertLessEqual({"case.toml", "result.json", "flow.vtkhdf", "surface.vtkhdf", *OF_VERB[verb]}, names)
+            for name in sorted(names):
+                with self.subTest(verb=verb, name=name):
+                    shutil.rmtree(part, ignore_errors=True)
+                    part.mkdir()
+                    (part / f"{name}.part").symlink_to("/dev/full")
+                    done = run(self.folder, part, *SHORT, verb=verb)
+                    self.assertEqual(done.returncode, 1, done.stderr)
+                    self.assertEqual(done.stderr.count("alphadot: error"), 1, done.stderr)
+                    self.assertRegex(done.stderr, rf"alphadot: error: .*{name}.*: No space left on device")
+                    self.assertEqual(list(part.glob("*.part")), [])
+                    again = run(self.folder, part, "--restart", *SHORT, verb=verb)
+                    self.assertEqual(again.returncode, 0, again.stderr)
+                    self.assertNotIn("not taken", again.stderr)
+                    self.assertEqual([file for file in OF_VERB[verb] if (full / file).read_bytes() != (part / file).read_bytes()], [])
+
+    def test_live_tables_are_no_reason_to_end(self) -> None:
+        self.part.mkdir()
+        for name in LIVE:
+            (self.part / name).symlink_to("/dev/full")
+        done = run(self.folder, self.part, *SHORT)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(result(self.part)["status"], "completed")
 
     @unittest.skipUnless(os.geteuid() == 0, "only root can mount a small disk")
     def test_small_disk(self) -> None:
