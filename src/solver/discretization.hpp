@@ -11,10 +11,10 @@
 
 namespace alphadot {
 
-/// Sums over the cells around a point, relative to the point: their number and the sum of their centroids.
+/// Sums over the cells around a point, relative to the point: that of their centroids and their number.
 struct PointMoments {
-  Real count;
   Vec3 first;
+  Real count;
   /// Makes the weights 1 + lambda . (c_j - x) of the cells give the point the value of any linear field
   /// (Holmes & Connell 1989).
   Vec3 lambda;

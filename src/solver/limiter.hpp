@@ -5,14 +5,15 @@
 
 #include "core/case.hpp"
 #include "core/dual.hpp"
+#include "core/four.hpp"
 
 namespace alphadot {
 
 /// Venkatakrishnan 1995, equation (18): smooth in `delta` (the reconstructed change) against `room` (the
 /// change to the extremum of the neighbourhood on the same side); `epsilon2` = (K h)^3 times the square of
 /// the variable's scale lets small wiggles pass. Both signs of delta and room alike.
-template <class T>
-T venkatakrishnan(const T& delta, const T& room, Real epsilon2) {
+template <class T, class E>
+T venkatakrishnan(const T& delta, const T& room, const E& epsilon2) {
   const T top = room * room + epsilon2 + 2.0 * delta * room;
   return top / (top + delta * (2.0 * delta - room));
 }
@@ -21,6 +22,9 @@ T venkatakrishnan(const T& delta, const T& room, Real epsilon2) {
 template <class T>
 T barth_jespersen(const T& delta, const T& room) {
   return value_of(delta) == 0 || room / delta >= T(1) ? T(1) : T(room / delta);
+}
+inline FourReals barth_jespersen(const FourReals& delta, const FourReals& room) {
+  return delta == 0 ? four(1) : minimum(room / delta, four(1));
 }
 
 }  // namespace alphadot

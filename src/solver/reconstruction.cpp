@@ -13,7 +13,53 @@ namespace alphadot {
 
 namespace {
 constexpr Index points_ahead = 4, cells_ahead = 8;  // that the memory is asked for
-}
+
+/// Smallest and largest values of each variable that were seen.
+template <class T>
+class RunningExtrema {
+ public:
+  explicit RunningExtrema(const Primitive<T>& first) : minimum_(first), maximum_(first) {}
+  void widen(const Primitive<T>& w) {
+    for (int i = 0; i < 5; ++i) {
+      minimum_[i] = w[i] < minimum_[i] ? w[i] : minimum_[i];
+      maximum_[i] = w[i] > maximum_[i] ? w[i] : maximum_[i];
+    }
+  }
+  const Primitive<T>& minimum() const { return minimum_; }
+  const Primitive<T>& maximum() const { return maximum_; }
+
+ private:
+  Primitive<T> minimum_, maximum_;
+};
+
+/// Of plain numbers: four variables in a vector register, the last one by itself.
+template <>
+class RunningExtrema<Real> {
+ public:
+  explicit RunningExtrema(const Primitive<Real>& first)
+      : minima_(load_four(first.v)), maxima_(minima_), minimum_(first[4]), maximum_(first[4]) {}
+  void widen(const Primitive<Real>& w) {
+    const auto four_of_them = load_four(w.v);
+    minima_ = alphadot::minimum(minima_, four_of_them);
+    maxima_ = alphadot::maximum(maxima_, four_of_them);
+    minimum_ = std::min(minimum_, w[4]);
+    maximum_ = std::max(maximum_, w[4]);
+  }
+  Primitive<Real> minimum() const { return joined(minima_, minimum_); }
+  Primitive<Real> maximum() const { return joined(maxima_, maximum_); }
+
+ private:
+  static Primitive<Real> joined(const FourReals& four_of_them, Real last) {
+    Primitive<Real> out;
+    store_four(four_of_them, out.v);
+    out[4] = last;
+    return out;
+  }
+  FourReals minima_, maxima_;
+  Real minimum_, maximum_;
+};
+
+}  // namespace
 
 template <class T>
 Reconstruction<T>::Reconstruction(const Discretization& discretization, const Communicator& comm)
@@ -60,20 +106,17 @@ void Reconstruction<T>::gather_points(const FlowField<T>& flow, Index begin, Ind
     const auto cells = domain.point_cells[point];
     const Vec3 x = domain.points[point];
     PointSums sums{};
-    if constexpr (!is_change<T>) sums.minimum = sums.maximum = flow[cells[0]];
+    RunningExtrema<T> extrema(flow[cells[0]]);
     for (const Index cell : cells) {
       const Primitive<T>& w = flow[cell];
       const Vec3 d = domain.center[cell] - x;
-      for (int i = 0; i < 5; ++i) {
-        sums.value[i] += w[i];
-        sums.moment.along[0][i] += d.x * w[i];
-        sums.moment.along[1][i] += d.y * w[i];
-        sums.moment.along[2][i] += d.z * w[i];
-        if constexpr (!is_change<T>) {
-          sums.minimum[i] = w[i] < sums.minimum[i] ? w[i] : sums.minimum[i];
-          sums.maximum[i] = w[i] > sums.maximum[i] ? w[i] : sums.maximum[i];
-        }
-      }
+      const FourReals arm{d.x, d.y, d.z, 1};
+      for (std::size_t i = 0; i < 5; ++i) sums.moments[i] += times(arm, w.v[i]);
+      if constexpr (!is_change<T>) extrema.widen(w);
+    }
+    if constexpr (!is_change<T>) {
+      sums.minimum = extrema.minimum();
+      sums.maximum = extrema.maximum();
     }
     points_[point] = sums;
   }
@@ -82,21 +125,23 @@ void Reconstruction<T>::gather_points(const FlowField<T>& flow, Index begin, Ind
 template <class T>
 Gradient<T> Reconstruction<T>::least_squares(Index cell, const Arms& arms, const Primitive<T>& w) const {
   const auto& corners = discretization_.domain().cell_points[cell];
-  Gradient<T> right{};
-  Vec3 offset{};
+  std::array<Four<T>, 5> right{};  // the last number of each is without meaning
+  FourReals offset{};
   for (std::size_t corner = 0; corner < 4; ++corner) {
     const PointSums& sums = points_[corners[corner]];
     const PointMoments& moments = discretization_.point_moments(corners[corner]);
-    offset += moments.first - moments.count * arms[corner];
-    for (int axis = 0; axis < 3; ++axis)
-      for (int i = 0; i < 5; ++i)
-        right.along[axis][i] += sums.moment.along[axis][i] - arms[corner][axis] * sums.value[i];
+    const FourReals arm{arms[corner].x, arms[corner].y, arms[corner].z, 0};
+    offset += load_four(&moments.first.x) - moments.count * arm;
+    for (std::size_t i = 0; i < 5; ++i) {
+      right[i] += sums.moments[i];
+      right[i] -= times(arm, T(sums.moments[i][3]));
+    }
   }
   const Symmetric3& a = discretization_.inverse_fit(cell);
   Gradient<T> out;
   for (int i = 0; i < 5; ++i) {
-    const T bx = right.along[0][i] - offset.x * w[i], by = right.along[1][i] - offset.y * w[i],
-            bz = right.along[2][i] - offset.z * w[i];
+    right[i] -= times(offset, w[i]);
+    const T bx = right[i][0], by = right[i][1], bz = right[i][2];
     out.along[0][i] = a.xx * bx + a.xy * by + a.xz * bz;
     out.along[1][i] = a.xy * bx + a.yy * by + a.yz * bz;
     out.along[2][i] = a.xz * bx + a.yz * by + a.zz * bz;
@@ -123,9 +168,9 @@ Gradient<T> Reconstruction<T>::green_gauss(Index cell) const {
     const Vec3 area = cross(b - a, c - a);
     const Vec3 slope = (1 / dot(domain.points[corners[corner]] - a, area)) * area;
     for (int i = 0; i < 5; ++i) {
-      const T value = inverse_weight * (sums.value[i] + moments.lambda.x * sums.moment.along[0][i] +
-                                        moments.lambda.y * sums.moment.along[1][i] +
-                                        moments.lambda.z * sums.moment.along[2][i]);
+      const Four<T>& sum = sums.moments[i];
+      const T value = inverse_weight * (sum[3] + moments.lambda.x * sum[0] + moments.lambda.y * sum[1] +
+                                        moments.lambda.z * sum[2]);
       for (int axis = 0; axis < 3; ++axis) out.along[axis][i] += slope[axis] * value;
     }
   }
@@ -134,8 +179,8 @@ Gradient<T> Reconstruction<T>::green_gauss(Index cell) const {
 
 namespace {
 
-template <LimiterKind limiter, class T>
-T limited_share(const T& delta, const T& room, Real epsilon2) {
+template <LimiterKind limiter, class T, class E>
+T limited_share(const T& delta, const T& room, const E& epsilon2) {
   if constexpr (limiter == LimiterKind::barth_jespersen)
     return barth_jespersen(delta, room);
   else
@@ -173,29 +218,29 @@ Primitive<T> Reconstruction<T>::limiter_factors(Index cell, const Arms& arms, co
                                                 const Gradient<T>& gradient) const {
   const auto& corners = discretization_.domain().cell_points[cell];
   const Five<Real> epsilon2 = passed_wiggles(discretization_, cell);
-  Primitive<T> minimum, maximum, smallest{{1, 1, 1, 1, 1}};
-  const auto begin_with = [&](std::size_t corner) {
-    minimum = points_[corners[corner]].minimum;
-    maximum = points_[corners[corner]].maximum;
-  };
-  begin_with(0);
-  for (std::size_t corner = 1; corner < 4 && !is_at_corners(limiter); ++corner)
-    for (int i = 0; i < 5; ++i) {
-      const T low = points_[corners[corner]].minimum[i], high = points_[corners[corner]].maximum[i];
-      minimum[i] = low < minimum[i] ? low : minimum[i];
-      maximum[i] = high > maximum[i] ? high : maximum[i];
+  // All corners at once, a variable after the other.
+  std::array<const PointSums*, 4> points;
+  for (std::size_t corner = 0; corner < 4; ++corner) points[corner] = &points_[corners[corner]];
+  const FourReals x = reach(limiter) * FourReals{arms[0].x, arms[1].x, arms[2].x, arms[3].x},
+                  y = reach(limiter) * FourReals{arms[0].y, arms[1].y, arms[2].y, arms[3].y},
+                  z = reach(limiter) * FourReals{arms[0].z, arms[1].z, arms[2].z, arms[3].z};
+  Primitive<T> out;
+  for (int i = 0; i < 5; ++i) {
+    FourReals low{}, high{};
+    for (std::size_t corner = 0; corner < 4; ++corner) {
+      low[corner] = value_of(points[corner]->minimum[i]);
+      high[corner] = value_of(points[corner]->maximum[i]);
     }
-  for (std::size_t corner = 0; corner < arms.size(); ++corner) {
-    const Vec3 offset = reach(limiter) * arms[corner];
-    if (is_at_corners(limiter)) begin_with(corner);
-    for (int i = 0; i < 5; ++i) {
-      const T delta = change_at(gradient, offset, i);
-      const T room = (delta > T(0) ? maximum[i] : minimum[i]) - w[i];
-      const T factor = limited_share<limiter>(delta, room, epsilon2[i]);
-      smallest[i] = factor < smallest[i] ? factor : smallest[i];
+    if (!is_at_corners(limiter)) {
+      low = four(smallest_of(low));
+      high = four(largest_of(high));
     }
+    const FourReals delta = x * value_of(gradient.along[0][i]) + y * value_of(gradient.along[1][i]) +
+                            z * value_of(gradient.along[2][i]);
+    const FourReals room = (delta > 0 ? high : low) - value_of(w[i]);
+    out[i] = std::min(smallest_of(limited_share<limiter>(delta, room, four(epsilon2[i]))), Real{1});
   }
-  return smallest;
+  return out;
 }
 
 template <class T>

@@ -9,6 +9,7 @@
 
 #include "core/changes.hpp"
 #include "core/communicator.hpp"
+#include "core/four.hpp"
 #include "solver/discretization.hpp"
 #include "solver/flow_field.hpp"
 
@@ -27,6 +28,18 @@ Primitive<T> extrapolated(const Primitive<T>& state, const Gradient<T>& gradient
   for (int i = 0; i < 5; ++i)
     out[i] = state[i] + (offset.x * gradient.along[0][i] + offset.y * gradient.along[1][i] +
                          offset.z * gradient.along[2][i]);
+  return out;
+}
+
+/// The same for plain numbers: four variables in a vector register, the last one by itself.
+inline Primitive<Real> extrapolated(const Primitive<Real>& state, const Gradient<Real>& gradient,
+                                    const Vec3& offset) {
+  const auto& [x, y, z] = gradient.along;
+  Primitive<Real> out;
+  store_four(load_four(state.v) +
+                 (offset.x * load_four(x.v) + offset.y * load_four(y.v) + offset.z * load_four(z.v)),
+             out.v);
+  out[4] = state[4] + (offset.x * x[4] + offset.y * y[4] + offset.z * z[4]);
   return out;
 }
 
@@ -88,10 +101,9 @@ class Reconstruction {
     Primitive<T> minimum, maximum;
   };
   struct NoExtrema {};
-  /// Sums over the cells j around a point v: values, values times (c_j - x_v); and extrema.
+  /// Over the cells j around a point v, variable by variable: sums of q_j times (c_j - x_v, 1); and extrema.
   struct PointSums : std::conditional_t<is_change<T>, NoExtrema, Extrema> {
-    Primitive<T> value;
-    Gradient<T> moment;
+    std::array<Four<T>, 5> moments;
   };
   /// Vectors from the corners of a cell to its centroid.
   using Arms = std::array<Vec3, 4>;

@@ -58,9 +58,8 @@ struct FaceBatch {
   using Lanes = std::array<T, lanes>;
 
   std::array<Lanes, 5> left, right, flux;
-  std::array<std::array<Real, lanes>, 3> normal;
-  std::array<Real, lanes> area;
-  Lanes speed;
+  std::array<std::array<Real, lanes>, 3> area;  // vectors
+  Lanes sweep;                                  // volume that the face sweeps per unit of time
 
   void set_states(int lane, const Primitive<T>& l, const Primitive<T>& r) {
     for (std::size_t i = 0; i < 5; ++i) {
@@ -68,10 +67,10 @@ struct FaceBatch {
       right[i][static_cast<std::size_t>(lane)] = r[static_cast<int>(i)];
     }
   }
-  void set_face(int lane, const Vec3& unit, Real face_area, const T& face_speed) {
-    for (std::size_t i = 0; i < 3; ++i) normal[i][static_cast<std::size_t>(lane)] = unit[static_cast<int>(i)];
-    area[static_cast<std::size_t>(lane)] = face_area;
-    speed[static_cast<std::size_t>(lane)] = face_speed;
+  void set_face(int lane, const Vec3& face_area, const T& face_sweep) {
+    for (std::size_t i = 0; i < 3; ++i)
+      area[i][static_cast<std::size_t>(lane)] = face_area[static_cast<int>(i)];
+    sweep[static_cast<std::size_t>(lane)] = face_sweep;
   }
   Conserved<T> flux_of(int lane) const {
     Conserved<T> out;
@@ -79,15 +78,16 @@ struct FaceBatch {
     return out;
   }
 
-  /// flux = area * flux_function(left, right, normal, speed), for the compiler to vectorise.
+  /// flux = |area| flux_function(left, right, normal, speed), for the compiler to vectorise.
   template <class FluxFunction>
   void evaluate(const FluxFunction& flux_function) {
     for (std::size_t lane = 0; lane < lanes; ++lane) {
       const Primitive<T> l{{left[0][lane], left[1][lane], left[2][lane], left[3][lane], left[4][lane]}};
       const Primitive<T> r{{right[0][lane], right[1][lane], right[2][lane], right[3][lane], right[4][lane]}};
-      const Vec3 unit{normal[0][lane], normal[1][lane], normal[2][lane]};
-      const Conserved<T> f = flux_function(l, r, unit, speed[lane]);
-      for (int i = 0; i < 5; ++i) flux[static_cast<std::size_t>(i)][lane] = area[lane] * f[i];
+      const Vec3 normal{area[0][lane], area[1][lane], area[2][lane]};
+      const Real size = norm(normal), per_area = 1 / size;
+      const Conserved<T> f = flux_function(l, r, per_area * normal, T(per_area * sweep[lane]));
+      for (int i = 0; i < 5; ++i) flux[static_cast<std::size_t>(i)][lane] = size * f[i];
     }
   }
 
@@ -130,9 +130,7 @@ void Residual<T>::interior_faces(const FlowField<T>& flow, const Conditions<T>& 
     for (int lane = 0; lane < batch.lanes; ++lane) {
       const Index face = first + std::min(lane, count - 1);  // lanes that are left over repeat the last face
       const auto [left, right] = domain.faces[face];
-      const Real area = norm(domain.face_normal[face]);
-      const Vec3 normal = (1 / area) * domain.face_normal[face];
-      const Vec3 center = domain.face_center[face];
+      const Vec3 area = domain.face_normal[face], center = domain.face_center[face];
       Primitive<T> wl = flow[left], wr = flow[right];
       if (order > 1) {
         const auto l = extrapolated(wl, reconstruction_[left], center - domain.center[left]);
@@ -149,7 +147,7 @@ void Residual<T>::interior_faces(const FlowField<T>& flow, const Conditions<T>& 
         }
       }
       batch.set_states(lane, wl, wr);
-      batch.set_face(lane, normal, area, conditions.face_speed(face, center, normal));
+      batch.set_face(lane, area, conditions.face_sweep(face, center, area));
     }
     batch.evaluate(discretization_.flux());
     for (int lane = 0; lane < count; ++lane) {
@@ -167,6 +165,13 @@ void Residual<T>::boundary_faces(const FlowField<T>& flow, const Conditions<T>& 
   const Subdomain& domain = discretization_.domain();
   const Real gamma = discretization_.gamma();
   for (std::size_t i = 0; i < domain.boundary_faces.size(); ++i) {
+    if (const std::size_t ahead = i + faces_ahead; ahead < domain.boundary_faces.size()) {
+      const Index cell = domain.boundary_faces[ahead].cell;
+      prefetch(flow[cell]);
+      prefetch(domain.center[cell]);
+      if (order > 1) prefetch(reconstruction_[cell]);
+      prefetch(residual[cell]);
+    }
     const auto& face = domain.boundary_faces[i];
     const Real area = norm(domain.boundary_normal[i]);
     const Vec3 normal = (1 / area) * domain.boundary_normal[i];
