@@ -7,7 +7,7 @@ cd "$(dirname "$0")/.."
 
 ./scripts/install.sh
 cmake --preset bench
-cmake --build --preset bench --parallel "$(nproc)" --target alphadot bench_solver
+cmake --build --preset bench --parallel "$(nproc)" --target alphadot alphadot_bench
 mesh=cases/basic_finner/coarse.msh
 [[ -e $mesh ]] || /usr/bin/python3 cases/basic_finner/mesh.py --level coarse --output $mesh
 /usr/bin/python3 scripts/bench.py "$@"

@@ -24,6 +24,8 @@ except ImportError as error:
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 
+import drawing
+
 ROOT = Path(__file__).resolve().parents[1]
 Measured = dict[str, Any]
 
@@ -68,11 +70,7 @@ def picture(run: Measured, stem: Path) -> None:
         rate = run["ranks"] * k["flops_per_cell"] / k["core_ns_per_cell"]
         axes.loglog(k["flops_per_cell"] / k["bytes_per_cell"], rate, "o", color=color, label=k["name"])
     axes.set(xlabel="flops a byte", ylabel="Gflop/s", title=f"{run['ranks']} ranks, {run['cells']} cells")
-    axes.grid(alpha=0.25)
-    axes.legend(fontsize=8)
-    figure.savefig(stem.with_suffix(".png"), dpi=130)
-    figure.savefig(stem.with_suffix(".svg"), metadata={"Date": None})
-    plt.close(figure)
+    drawing.finish(figure, stem)
 
 
 def main() -> None:

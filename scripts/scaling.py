@@ -34,6 +34,8 @@ except ImportError as error:
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 
+import drawing
+
 ROOT = Path(__file__).resolve().parents[1]
 BLUE, RED, GREEN, GREY = "#1f5fa8", "#c0392b", "#2e8b57", "#909090"
 WEAK_ITERATIONS = 20  # meshes differ, so iterations to a residual do not compare
@@ -209,6 +211,8 @@ def picture(strong: list[Run], weak: list[Run], model: Model, network: Network, 
     iterations.plot(counts, [r.iterations / strong[0].iterations for r in strong], "o-", color=BLUE, label="measured")
     iterations.axhline(1.15, color=RED, linestyle="--", linewidth=1, label="1.15")
     iterations.set(xlabel="ranks", ylabel="iterations / those on one rank", ylim=(0.9, 1.25), xscale="log")
+    iterations.minorticks_off()
+    iterations.set_xticks(counts, labels=[str(count) for count in counts])
     cut = sorted((r for r in strong + weak if r.ranks > 1), key=lambda r: r.cells_per_rank)
     per_rank = np.geomspace(cut[0].cells_per_rank / 2, 2 * cut[-1].cells_per_rank, 50)
     ghosts.loglog([r.cells_per_rank for r in cut], [r.ghosts_per_rank for r in cut], "o", color=BLUE, label="measured")
@@ -224,12 +228,7 @@ def picture(strong: list[Run], weak: list[Run], model: Model, network: Network, 
             many, [model.efficiency(cells * p, p, network) for p in many], color=color, label=f"model, {cells} cells a rank"
         )
     together.set(xlabel="ranks", ylabel="efficiency of an iteration", ylim=(0, 1.05), title="weak scaling, model")
-    for axes in (iterations, ghosts, speed, together):
-        axes.grid(alpha=0.25)
-        axes.legend(fontsize=8)
-    figure.savefig(stem.with_suffix(".png"), dpi=130)
-    figure.savefig(stem.with_suffix(".svg"), metadata={"Date": None})
-    plt.close(figure)
+    drawing.finish(figure, stem)
 
 
 def main() -> None:

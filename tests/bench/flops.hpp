@@ -9,7 +9,7 @@
 namespace alphadot {
 
 /// Operations on flow variables in one second-order evaluation on this rank. Geometry (normals, arms: about
-/// 60 operations a cell) and the limiter's search among plain numbers (about 300) are not among them.
+/// 60 operations a cell) and limiter (about 300) are not among them.
 Operations residual_operations(const Discretization& discretization, const Communicator& comm,
                                const FlowField<Real>& flow, const Conditions<Real>& conditions);
 
