@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Measures the solver against its targets on the Basic Finner's coarse mesh: installs, builds in build-bench/, meshes, times kernels,
-# whole steady solves, memory and two ranks over one, and writes one JSON file. Wants a machine with nothing else to do; about two
+# whole steady solves, memory and two ranks over one, and writes one JSON file. Wants a machine with nothing else to do; a few
 # minutes. Arguments go to scripts/bench.py, e.g. --out FILE.
 set -euo pipefail
 cd "$(dirname "$0")/.."
