@@ -1,21 +1,15 @@
 // Numbers that go through linear arithmetic several at a time.
 #pragma once
 
-#include <bit>
-
-#include "core/types.hpp"
+#include "core/directions.hpp"
 
 namespace alphadot {
 
 /// The changes of one number in N directions. What is linear in a number can be done to its changes: sums,
-/// and products with plain numbers. They lie in one vector of the processor.
+/// and products with plain numbers.
 template <int N>
 struct Changes {
-  static constexpr int lanes = static_cast<int>(std::bit_ceil(static_cast<unsigned>(N)));
-  using Vector __attribute__((vector_size(lanes * static_cast<int>(sizeof(Real))), aligned(alignof(Real)))) =
-      Real;
-
-  Vector d{};
+  Directions<N> d{};
 
   constexpr Changes& operator+=(const Changes& b) {
     d += b.d;

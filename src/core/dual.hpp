@@ -2,24 +2,17 @@
 #pragma once
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
-#include "core/types.hpp"
+#include "core/directions.hpp"
 
 namespace alphadot {
 
-/// value + sum_k d[k] epsilon_k with epsilon_j epsilon_k = 0. Comparisons look at the value alone. The
-/// derivatives lie in one vector of the processor, or a few, with unused lanes up to a power of two: eight
-/// cost hardly more than two.
+/// value + sum_k d[k] epsilon_k with epsilon_j epsilon_k = 0. Comparisons look at the value alone.
 template <int N>
 struct Dual {
-  static constexpr int lanes = static_cast<int>(std::bit_ceil(static_cast<unsigned>(N)));
-  using Vector __attribute__((vector_size(lanes * static_cast<int>(sizeof(Real))), aligned(alignof(Real)))) =
-      Real;
-
   Real v{};
-  Vector d{};
+  Directions<N> d{};
 
   constexpr Dual() = default;
   constexpr Dual(Real value) : v(value) {}  // a constant: implicit, so that formulas mix freely
@@ -76,7 +69,7 @@ struct Dual {
   friend constexpr Dual abs(const Dual& a) { return a.v < 0 ? -a : a; }
 
  private:
-  constexpr Dual(Real value, const Vector& derivatives) : v(value), d(derivatives) {}
+  constexpr Dual(Real value, const Directions<N>& derivatives) : v(value), d(derivatives) {}
 };
 
 /// The value without its derivatives, of a plain number or a dual one.
