@@ -28,6 +28,8 @@ mkdir -p "$folder"
 exec > >(tee "$folder/slurm_test.log") 2>&1
 source scripts/slurm_node.sh
 trap stop_node EXIT
+# Both jobs are on one node, where each mpirun would bind its ranks to the first core.
+export OMPI_MCA_hwloc_base_binding_policy=none
 step() { printf '\n== %s (after %d s)\n' "$*" "$SECONDS"; }
 
 step "Slurm on one node"
@@ -54,7 +56,7 @@ mach = 2.5
 case = "plunge.toml"
 method = "plunge"
 mach = 2.5
-set."unsteady.steps_per_cycle" = ${STEPS:-480}
+set."unsteady.steps_per_cycle" = ${STEPS:-240}
 END
 }
 sweep limited > "$folder/limited.toml"
