@@ -40,7 +40,7 @@ class VtkHdfFile {
     MPI_Exscan(&points_here, &first_point, 1, MPI_INT64_T, MPI_SUM, comm_.handle());  // the root keeps its 0
     std::array totals{points_here, static_cast<GlobalIndex>(part.cells())};
     comm_.sum(totals);
-    const auto [points, cells] = totals;
+    const GlobalIndex points = totals[0], cells = totals[1];
 
     write_floats("Points", {reinterpret_cast<const Real*>(part.points.data()), 3 * part.points.size()}, 3);
     std::vector<std::int64_t> corners(part.corners.begin(), part.corners.end());
