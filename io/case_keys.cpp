@@ -151,7 +151,11 @@ std::vector<CaseKey> make_keys() {
            "of the Krylov space of GMRES before it begins anew; 40 bytes a cell each")
       .key("max_iterations", &DerivativeSettings::max_iterations, count, "limit of linear iterations")
       .key("second_order", &DerivativeSettings::second_order, FlagValue{},
-           "also by the second time derivatives of alpha and beta, and where quasi-steady flight ends");
+           "also by the second time derivatives of alpha and beta, and where quasi-steady flight ends")
+      .key("limiter_uncertainty", &DerivativeSettings::limiter_uncertainty, FlagValue{},
+           "solve once more with the limiter's factors held at those of the steady flow, and add the "
+           "difference "
+           "to the uncertainty; doubles the cost of the linear solves");
 
   Table(keys, "output", &Case::output)
       .key("folder", &OutputSettings::folder, TextValue{}, "folder of the run")

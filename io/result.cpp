@@ -22,8 +22,10 @@ Json json_of(const Result& r) {
   forces["excluded"] = r.excluded;
 
   Json derivatives = Json::object();
-  for (const auto& [name, d] : r.derivatives)
+  for (const auto& [name, d] : r.derivatives) {
     derivatives[name] = {{"value", d.value}, {"uncertainty", d.uncertainty}, {"method", d.method}};
+    if (!d.parts.empty()) derivatives[name]["parts"] = json_of(d.parts);
+  }
 
   const Vec3& center = r.reference.moment_center;
   const auto& performance = r.performance;

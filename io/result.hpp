@@ -19,7 +19,8 @@ using NamedValues = std::vector<std::pair<std::string, Real>>;
 struct DerivativeResult {
   Real value = 0;
   Real uncertainty = 0;
-  std::string method;  ///< "harmonic fit of plunge at k = 0.01", ...
+  std::string method;      ///< "harmonic fit of plunge at k = 0.01", ...
+  NamedValues parts = {};  ///< of the uncertainty, by source; may be empty
 };
 
 /// Not a number: a figure that was not measured; null in the file.

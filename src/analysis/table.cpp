@@ -19,15 +19,26 @@ std::string prefixed(const std::string& text, const std::string& prefix) {
   return out;
 }
 
+/// Of the parts of the uncertainty.
+std::vector<std::string> sources_of(std::span<const TableRow> rows) {
+  std::vector<std::string> out;
+  if (!rows.empty())
+    for (const auto& [source, share] : rows.front().parts) out.push_back(source);
+  return out;
+}
+
 }  // namespace
 
-std::vector<TableRow> rows_of(const DerivativeSet& derivatives, const std::string& method, Axes axes) {
+std::vector<TableRow> rows_of(const DerivativeSet& derivatives, const std::string& method, Axes axes,
+                              std::span<const UncertaintyPart> parts) {
   std::vector<TableRow> rows;
   for (const auto& [variable, values] : derivatives)
     for (int c = 0; c < values.size(); ++c)
-      if (values[c].value != 0 || values[c].uncertainty != 0)
-        rows.push_back(
-            {derivative_name(names_in(axes)[static_cast<std::size_t>(c)], variable), values[c], method});
+      if (values[c].value != 0 || values[c].uncertainty != 0) {
+        auto& row = rows.emplace_back(derivative_name(names_in(axes)[static_cast<std::size_t>(c)], variable),
+                                      values[c], method);
+        for (const auto& [source, share] : parts) row.parts.emplace_back(source, share.at(variable)[c]);
+      }
   return rows;
 }
 
@@ -49,17 +60,27 @@ std::string derivative_table(std::span<const TableRow> rows, const ReferenceSett
   std::size_t width = 4;
   for (const auto& row : rows) width = std::max(width, row.name.size());
   std::string out = reference_text(reference, axes);
-  out += fmt::format("{:<{}} {:>13}   {:<12} {}\n", "name", width, "value", "uncertainty", "method");
-  for (const auto& [name, value, method] : rows)
+  out += fmt::format("{:<{}} {:>13}   {:<12} ", "name", width, "value", "uncertainty");
+  for (const auto& source : sources_of(rows)) out += fmt::format("{:<9} ", source);
+  out += "method\n";
+  for (const auto& row : rows) {
     out +=
-        fmt::format("{:<{}} {:>13.6g} ± {:<12.2g} {}\n", name, width, value.value, value.uncertainty, method);
+        fmt::format("{:<{}} {:>13.6g} ± {:<12.2g} ", row.name, width, row.value.value, row.value.uncertainty);
+    for (const auto& [source, share] : row.parts) out += fmt::format("{:<9.2g} ", share);
+    out += row.method + "\n";
+  }
   return out;
 }
 
 std::string derivative_csv(std::span<const TableRow> rows, const ReferenceSettings& reference, Axes axes) {
-  std::string out = prefixed(reference_text(reference, axes), "# ") + "name,value,uncertainty,method\n";
-  for (const auto& [name, value, method] : rows)
-    out += fmt::format("{},{:.17g},{:.17g},\"{}\"\n", name, value.value, value.uncertainty, method);
+  std::string out = prefixed(reference_text(reference, axes), "# ") + "name,value,uncertainty,method";
+  for (const auto& source : sources_of(rows)) out += "," + source;
+  out += "\n";
+  for (const auto& [name, value, method, parts] : rows) {
+    out += fmt::format("{},{:.17g},{:.17g},\"{}\"", name, value.value, value.uncertainty, method);
+    for (const auto& [source, share] : parts) out += fmt::format(",{:.17g}", share);
+    out += "\n";
+  }
   return out;
 }
 

@@ -58,12 +58,14 @@ int time_derivatives(Variable variable) {
 }
 
 /// The problem of one variable. Those of the rates of the angles need the responses to the angles.
-SensitivityProblem problem_of(Variable variable, const FlowCase& flow, const Responses& responses) {
+SensitivityProblem problem_of(ResponseKey key, const FlowCase& flow, const Responses& responses) {
+  using enum Variable;
+  const auto [variable, limiter_held] = key;
   SensitivityProblem out{std::string(name(variable)), change_of(variable, flow.settings().freestream), {}};
-  if (variable == Variable::alphadot) out.rate = responses.at(Variable::alpha).field;
-  if (variable == Variable::betadot) out.rate = responses.at(Variable::beta).field;
-  if (variable == Variable::alphaddot) out.rate = responses.at(Variable::alphadot).field;
-  if (variable == Variable::betaddot) out.rate = responses.at(Variable::betadot).field;
+  if (variable == alphadot) out.rate = responses.at({alpha, limiter_held}).field;
+  if (variable == betadot) out.rate = responses.at({beta, limiter_held}).field;
+  if (variable == alphaddot) out.rate = responses.at({alphadot, limiter_held}).field;
+  if (variable == betaddot) out.rate = responses.at({betadot, limiter_held}).field;
   return out;
 }
 
@@ -93,9 +95,39 @@ void add_column(DerivativeSet& derivatives, Variable variable, const Sensitivity
                solution.relative_residual);
 }
 
-/// Solves for all variables but those that the checkpoint has, with a checkpoint after each group. Nothing
-/// when the run was stopped.
-DerivativeSet solve_all(FlowCase& flow) {
+/// Solves for all variables but those that the checkpoint has, with a checkpoint after each group. The
+/// uncertainty is that of the linear solves. Nothing when the run was stopped.
+DerivativeSet solve_all(FlowCase& flow, SensitivitySolver& solver, Responses& responses, bool limiter_held) {
+  if (limiter_held) {
+    spdlog::info("once more with the limiter's factors held");
+    solver.hold_limiter();
+  }
+  DerivativeSet out;
+  for (const auto& group : groups_of(flow.settings())) {
+    if (!responses.has({group.front(), limiter_held})) {
+      std::vector<SensitivityProblem> problems;
+      for (const auto variable : group)
+        problems.push_back(problem_of({variable, limiter_held}, flow, responses));
+      auto solved = solver.solve(problems);
+      if (solved.empty()) return {};
+      for (std::size_t i = 0; i < group.size(); ++i)
+        responses.add({group[i], limiter_held}, std::move(solved[i]));
+      responses.save();
+    }
+    for (const auto variable : group)
+      add_column(out, variable, responses.at({variable, limiter_held}), flow.settings());
+  }
+  return out;
+}
+
+/// Derivatives, and the parts that their uncertainties are the sums of.
+struct Estimated {
+  DerivativeSet derivatives;
+  std::vector<UncertaintyPart> parts;
+};
+
+/// No derivatives when the run was stopped.
+Estimated estimate_all(FlowCase& flow) {
   const Case& settings = flow.settings();
   Responses responses(flow);
   std::atomic<GlobalIndex> linear_iterations{0};
@@ -105,19 +137,23 @@ DerivativeSet solve_all(FlowCase& flow) {
     ++linear_iterations;
     return !flow.checkpoints().wish(false).stop;
   };
-  DerivativeSet out;
   SensitivitySolver solver(flow.iteration(), flow.conditions(), settings.derivatives, go_on);
-  for (const auto& group : groups_of(settings)) {
-    if (!responses.has(group.front())) {
-      std::vector<SensitivityProblem> problems;
-      for (const auto variable : group) problems.push_back(problem_of(variable, flow, responses));
-      auto solved = solver.solve(problems);
-      if (solved.empty()) return {};
-      for (std::size_t i = 0; i < group.size(); ++i) responses.add(group[i], std::move(solved[i]));
-      responses.save();
+  Estimated out{solve_all(flow, solver, responses, false), {}};
+  if (out.derivatives.empty()) return {};
+  auto& linear = out.parts.emplace_back("linear");
+  for (const auto& [variable, column] : out.derivatives)
+    for (int i = 0; i < column.size(); ++i) linear.share[variable][i] = column[i].uncertainty;
+  if (!settings.derivatives.limiter_uncertainty) return out;
+
+  const DerivativeSet held = solve_all(flow, solver, responses, true);
+  if (held.empty()) return {};
+  auto& limiter = out.parts.emplace_back("limiter");
+  for (auto& [variable, column] : out.derivatives)
+    for (int i = 0; i < column.size(); ++i) {
+      const Real share = std::abs(held.at(variable)[i].value - column[i].value);
+      limiter.share[variable][i] = share;
+      column[i].uncertainty += share;
     }
-    for (const auto variable : group) add_column(out, variable, responses.at(variable), settings);
-  }
   return out;
 }
 
@@ -178,7 +214,7 @@ RunStatus derivatives_verb(const CaseArguments& arguments, const Communicator& c
   FlowCase flow(arguments, comm);
   check_restart(flow);
   flow.announce();
-  DerivativeSet derivatives;
+  Estimated estimated;
   RunStatus status = RunStatus::error;
   Real linear_cpu = not_measured;
   try {
@@ -186,9 +222,9 @@ RunStatus derivatives_verb(const CaseArguments& arguments, const Communicator& c
     const Timer timer;
     if (status != RunStatus::interrupted) {
       flow.progress().begin_linear_solves();
-      derivatives = solve_all(flow);
+      estimated = estimate_all(flow);
     }
-    if (status != RunStatus::interrupted && derivatives.empty()) {
+    if (status != RunStatus::interrupted && estimated.derivatives.empty()) {
       status = RunStatus::interrupted;
       flow.set_message(flow.checkpoints().stop_reason());
     }
@@ -198,12 +234,14 @@ RunStatus derivatives_verb(const CaseArguments& arguments, const Communicator& c
     flow.report_divergence(error);
   }
 
+  const auto& [derivatives, parts] = estimated;
   const auto rows = rows_of(
-      derivatives, fmt::format("linear solve, k -> 0, {}", word_of(flow.settings().derivatives.method)));
+      derivatives, fmt::format("linear solve, k -> 0, {}", word_of(flow.settings().derivatives.method)),
+      Axes::body, parts);
   Result result = flow.result(status, rows);
   result.performance.linear_cpu_s = comm.sum(linear_cpu);
   if (!rows.empty()) result.longitudinal = longitudinal_of(flow.settings(), derivatives);
-  if (!rows.empty()) comm.on_root([&] { write_tables(flow, derivatives, rows); });
+  if (!rows.empty()) comm.on_root([&] { write_tables(flow, estimated.derivatives, rows); });
   flow.write(result);
   flow.print(result, rows);
   print(result.longitudinal);

@@ -281,7 +281,7 @@ Result FlowCase::result(RunStatus status, std::span<const TableRow> derivatives)
           named(coefficients(steady_report_.loads[patch], settings()));
   out.excluded = excluded_patches();
   for (const auto& row : derivatives)
-    out.derivatives[row.name] = {row.value.value, row.value.uncertainty, row.method};
+    out.derivatives[row.name] = {row.value.value, row.value.uncertainty, row.method, row.parts};
   out.performance = performance();
   out.provenance = provenance(comm_.size());
   return out;

@@ -2,6 +2,7 @@
 
 #include <span>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -15,8 +16,8 @@ constexpr Variable solved_for[] = {Variable::alpha,   Variable::beta,      Varia
                                    Variable::q,       Variable::r,         Variable::alphadot,
                                    Variable::betadot, Variable::alphaddot, Variable::betaddot};
 
-std::string entry_of(Variable variable) {
-  return "response_" + std::string(name(variable));
+std::string entry_of(ResponseKey key) {
+  return (key.limiter_held ? "response_limiter_held_" : "response_") + std::string(name(key.variable));
 }
 
 /// What a checkpoint keeps of a response besides its field.
@@ -46,7 +47,10 @@ bool is_of_this_flow(const CheckpointHead& head, const FlowCase& flow) {
   const auto now = flow.steady_head("");
   for (const char* entry : {"iteration", "cfl", "residuals"})
     if (head.numbers.at(entry) != now.numbers.at(entry)) return false;
-  return flow.checkpoints().case_before().derivatives == flow.settings().derivatives;
+  const auto tolerances = [](const DerivativeSettings& settings) {
+    return std::tie(settings.method, settings.orders, settings.directions, settings.max_iterations);
+  };
+  return tolerances(flow.checkpoints().case_before().derivatives) == tolerances(flow.settings().derivatives);
 }
 
 }  // namespace
@@ -56,10 +60,13 @@ Responses::Responses(FlowCase& flow) : flow_(flow) {
   if (!restart || !is_of_this_flow(*restart, flow)) return;
   const auto cells = static_cast<std::size_t>(flow.setup().domain.owned_cells);
   std::vector<CheckpointField> fields;
-  for (const auto variable : solved_for)
-    if (const auto numbers = restart->numbers.find(entry_of(variable)); numbers != restart->numbers.end()) {
-      auto& response = solved_[variable] = response_of(variable, numbers->second, cells);
-      fields.push_back({entry_of(variable), response.field});
+  for (const bool limiter_held : {false, true})
+    for (const auto variable : solved_for) {
+      const ResponseKey key{variable, limiter_held};
+      const auto numbers = restart->numbers.find(entry_of(key));
+      if (numbers == restart->numbers.end()) continue;
+      auto& response = solved_[key] = response_of(variable, numbers->second, cells);
+      fields.push_back({entry_of(key), response.field});
     }
   flow.checkpoints().read(fields);
   if (!fields.empty()) spdlog::info("{} linear solves are taken from the checkpoint", fields.size());
@@ -68,9 +75,9 @@ Responses::Responses(FlowCase& flow) : flow_(flow) {
 void Responses::save() {
   auto head = flow_.steady_head("derivatives");
   std::vector<CheckpointField> fields;
-  for (auto& [variable, response] : solved_) {
-    head.numbers[entry_of(variable)] = numbers_of(response);
-    fields.push_back({entry_of(variable), response.field});
+  for (auto& [key, response] : solved_) {
+    head.numbers[entry_of(key)] = numbers_of(response);
+    fields.push_back({entry_of(key), response.field});
   }
   flow_.save(head, std::move(fields));
 }

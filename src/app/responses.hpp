@@ -1,6 +1,7 @@
 // The linear responses that a run of derivatives has solved for, kept in its checkpoints.
 #pragma once
 
+#include <compare>
 #include <map>
 
 #include "analysis/derivatives.hpp"
@@ -9,6 +10,13 @@
 
 namespace alphadot {
 
+/// What was solved for, and whether the limiter's factors were held meanwhile.
+struct ResponseKey {
+  Variable variable;
+  bool limiter_held = false;
+  auto operator<=>(const ResponseKey&) const = default;
+};
+
 class Responses {
  public:
   /// Begins with those of the checkpoint that the run goes on from, when they are responses of the flow that
@@ -16,15 +24,15 @@ class Responses {
   /// the object.
   explicit Responses(FlowCase& flow);
 
-  bool has(Variable variable) const { return solved_.contains(variable); }
-  const Sensitivity& at(Variable variable) const { return solved_.at(variable); }
-  void add(Variable variable, Sensitivity response) { solved_[variable] = std::move(response); }
+  bool has(ResponseKey key) const { return solved_.contains(key); }
+  const Sensitivity& at(ResponseKey key) const { return solved_.at(key); }
+  void add(ResponseKey key, Sensitivity response) { solved_[key] = std::move(response); }
   /// Writes a checkpoint with the steady flow and all responses. Collective.
   void save();
 
  private:
   FlowCase& flow_;
-  std::map<Variable, Sensitivity> solved_;
+  std::map<ResponseKey, Sensitivity> solved_;
 };
 
 }  // namespace alphadot

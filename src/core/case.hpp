@@ -87,9 +87,8 @@ struct DerivativeSettings {
   Real orders = 3;      ///< decades that the preconditioned residual must drop
   int directions = 80;  ///< of the Krylov space before it begins anew
   int max_iterations = 300;
-  bool second_order = false;  ///< also with respect to the second time derivatives of alpha and beta
-
-  bool operator==(const DerivativeSettings&) const = default;
+  bool second_order = false;         ///< also with respect to the second time derivatives of alpha and beta
+  bool limiter_uncertainty = false;  ///< solve once more with the limiter's factors held
 };
 
 struct OutputSettings {

@@ -20,6 +20,10 @@ Linearisation::Linearisation(const Discretization& discretization, const Communi
   differentiate_boundary(reconstruction);
 }
 
+void Linearisation::hold_limiter() {
+  for (LimiterSlope& slope : slopes_) slope.by_delta = slope.by_room = {};
+}
+
 namespace {
 
 template <int N>

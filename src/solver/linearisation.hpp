@@ -37,6 +37,9 @@ class Linearisation {
   Linearisation(const Discretization& discretization, const Communicator& comm, const FlowField<Real>& flow,
                 const Reconstruction<Real>& reconstruction, const Conditions<Real>& conditions);
 
+  /// From now on the limiter's factors stay what they are at this flow.
+  void hold_limiter();
+
   const Discretization& discretization() const { return discretization_; }
   const Communicator& communicator() const { return comm_; }
   const FlowField<Real>& flow() const { return flow_; }

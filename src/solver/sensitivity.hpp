@@ -45,6 +45,9 @@ class SensitivitySolver {
   SensitivitySolver(ImplicitIteration& iteration, const Conditions<Real>& conditions,
                     const DerivativeSettings& settings, std::function<bool()> go_on = {});
 
+  /// From now on the problems leave the limiter's reaction out: its factors stay those of the steady flow.
+  void hold_limiter() { linearisation_.hold_limiter(); }
+
   /// Nothing when `go_on` said no. Throws DivergedError when a march grows: the steady state then hides an
   /// unstable cell. Collective.
   std::vector<Sensitivity> solve(const std::vector<SensitivityProblem>& problems);

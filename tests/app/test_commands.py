@@ -91,6 +91,23 @@ class Commands(unittest.TestCase):
         self.assert_flat_plate(result["derivatives"])
         self.assertLess(result["derivatives"]["CN_alphadot"]["uncertainty"], 1e-3)
 
+    def test_uncertainty_of_the_limiter(self) -> None:
+        limiter_part = {}
+        for limiter in ("venkatakrishnan", "none"):
+            changes = (f"space.limiter={limiter}", "space.limiter_k=0.5", "derivatives.limiter_uncertainty=true")
+            options = [word for change in changes for word in ("--set", change)]
+            self.succeeded("derivatives", "case.toml", *options, "--out", limiter, "--quiet")
+            found = self.result(limiter)["derivatives"]
+            for entry in found.values():
+                self.assertEqual(entry["parts"].keys(), {"linear", "limiter"})
+                self.assertAlmostEqual(sum(entry["parts"].values()), entry["uncertainty"], delta=1e-15)
+            with open(self.folder / limiter / "derivatives.csv") as file:
+                rows = {row["name"]: row for row in csv.DictReader(line for line in file if not line.startswith("#"))}
+            limiter_part[limiter] = {name: float(row["limiter"]) for name, row in rows.items()}
+            self.assertEqual(limiter_part[limiter], {name: entry["parts"]["limiter"] for name, entry in found.items()})
+        self.assertGreater(limiter_part["venkatakrishnan"]["CN_alphadot"], 1e-4)
+        self.assertEqual(set(limiter_part["none"].values()), {0.0})
+
     def test_history(self) -> None:
         with open(self.folder / "plunge" / "history.csv") as file:
             rows = list(csv.DictReader(file))

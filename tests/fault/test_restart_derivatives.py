@@ -13,7 +13,7 @@ from pathlib import Path
 from runs import CaseInFolder, LiveRun, checkpoints, derivatives, make_case, result, run, settings
 
 FILES = ("derivatives.csv", "derivatives.st", "derivatives.jsbsim.xml", "flow.vtkhdf", "surface.vtkhdf")
-EVERY = settings(checkpoint_iterations=1, checkpoint_keep=100)
+EVERY = settings(checkpoint_iterations=1, checkpoint_keep=100, derivatives_limiter_uncertainty="true")
 SLOW = settings(derivatives_directions=2, derivatives_orders=12, derivatives_max_iterations=100000, steady_sweeps=1)
 
 
@@ -31,14 +31,15 @@ class RestartDerivatives(CaseInFolder):
         for ranks in (1, 2):
             self.run_ok(self.full, *EVERY, ranks=ranks)
             files = checkpoints(self.full)
-            self.assertGreaterEqual(len(files), 5)  # in the march, at its end, after each of three groups
+            self.assertGreaterEqual(len(files), 8)  # in the march, at its end, after each of three groups, twice
             taken = []
-            for file in files if ranks == 1 else files[-3:]:
+            for file in files if ranks == 1 else files[-6:]:
                 done = self.run_ok(self.part, *EVERY, "--restart", file, ranks=ranks)
                 found = [line.split()[0] for line in done.stderr.splitlines() if "taken from the checkpoint" in line]
                 taken += map(int, found)
                 self.assert_same()
-            self.assertEqual(taken, [3, 5, 7])  # alpha, beta, q; p, r; the rates of alpha and beta
+            # alpha, beta, q; p, r; the rates of alpha and beta; all of them with the limiter held
+            self.assertEqual(taken, [3, 5, 7, 10, 12, 14])
 
     def test_on_other_ranks(self) -> None:
         tight = settings(steady_orders=11, derivatives_orders=10, checkpoint_keep=10)
@@ -73,6 +74,13 @@ class RestartDerivatives(CaseInFolder):
         done = self.run_ok(self.part, "--restart", *settings(derivatives_orders=6))
         self.assertIn("goes on from", done.stderr)
         self.assertNotIn("taken from", done.stderr)
+
+    def test_the_uncertainty_of_the_limiter_can_be_added(self) -> None:
+        self.run_ok(self.full, *settings(derivatives_limiter_uncertainty="true"))
+        self.run_ok(self.part)
+        done = self.run_ok(self.part, "--restart", *settings(derivatives_limiter_uncertainty="true"))
+        self.assertIn("7 linear solves are taken from the checkpoint", done.stderr)
+        self.assert_same()
 
     def test_a_motion_begins_from_them_but_gives_none(self) -> None:
         self.run_ok(self.part)
