@@ -2,9 +2,11 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
+#include <string>
 #include <vector>
 
-#include "io/scanner.hpp"
+#include "core/types.hpp"
 
 namespace alphadot {
 
@@ -12,24 +14,26 @@ namespace alphadot {
 /// may be as short as "0 0 0", 6 bytes for 24 in memory, and an element 10 for 32; but a mesh uses each of
 /// its points, by numbers that differ. n points take n (7 + the mean number of digits) bytes in the file at
 /// least, so that 24 n exceeds twice the file by 7 KiB at most, at 10,000 points; elements, of which n points
-/// allow no more than n^2 / 2, by 14 KiB, at 100 points.
-inline std::size_t largest_array(const Scanner& in) {
+/// allow no more than n^2 / 2, by 14 KiB, at 100 points. In binary a number has 4 bytes or more, 8 in memory.
+/// `in` is what is read: a Scanner, or anything else that knows the size() of its file and can fail().
+template <class Source>
+std::size_t largest_array(const Source& in) {
   return 2 * in.size() + 16384;
 }
 
 /// Makes room for `count` more entries, as far as largest_array() goes. Grows geometrically, so that many
 /// small blocks stay cheap; exact for the first one.
-template <class T>
-void reserve_more(std::vector<T>& entries, GlobalIndex count, const Scanner& in) {
+template <class T, class Source>
+void reserve_more(std::vector<T>& entries, GlobalIndex count, const Source& in) {
   const std::size_t needed = entries.size() + static_cast<std::size_t>(count);
   if (needed > entries.capacity())
     entries.reserve(std::min(largest_array(in) / sizeof(T),
                              std::max(needed, entries.capacity() + entries.capacity() / 2)));
 }
 
-/// Adds an entry. Throws InputError at the scanner's place when the array is as large as it may be.
-template <class T>
-T& append(std::vector<T>& entries, const T& entry, const Scanner& in) {
+/// Adds an entry. Fails when the array is as large as it may be.
+template <class T, class Source>
+T& append(std::vector<T>& entries, const T& entry, const Source& in) {
   if (entries.size() == entries.capacity()) {
     reserve_more(entries, 1, in);
     if (entries.size() == entries.capacity())

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "io/bounded_growth.hpp"
 
 namespace alphadot {
 namespace {
@@ -29,6 +30,9 @@ constexpr const char* tetrahedra_only =
 
 /// Names in a CGNS file have 32 characters; those of families may be paths of them.
 using Name = std::array<char, 1024>;
+
+/// Points or elements that are read at a time, so that the mesh is in memory once, not twice.
+constexpr std::int64_t piece = 65536;
 
 /// Points and lines: nothing that a mesh of a volume needs.
 bool is_below_surface(ElementType type) {
@@ -46,17 +50,26 @@ class CgnsReader {
 
   Mesh read() &&;
 
- private:
-  struct Triangle {
-    cgsize_t element = 0;  ///< its number in the zone
-    std::array<GlobalIndex, 3> points{};
-    std::size_t name = 0;  ///< in names_
-    bool has_condition = false;
-  };
-
+  /// Bytes of the file.
+  std::size_t size() const { return static_cast<std::size_t>(bytes_); }
   [[noreturn]] void fail(const std::string& what, const std::string& remedy = rewrite) const {
     throw InputError(path_, 0, what, remedy);
   }
+
+ private:
+  struct Section {
+    int index = 0;  ///< the library's
+    std::string name;
+    ElementType type{};
+    cgsize_t first = 0, last = 0;  ///< its elements
+  };
+  /// What is known of a triangle besides its points. Apart from them, so that no array is out of proportion.
+  struct Label {
+    cgsize_t element = 0;   ///< its number in the zone
+    std::int32_t name = 0;  ///< in names_
+    bool has_condition = false;
+  };
+
   /// Throws what the library says when `status` tells of an error.
   void check(int status) const {
     if (status != CG_OK)
@@ -67,15 +80,16 @@ class CgnsReader {
   void check_size(std::int64_t count, std::int64_t bytes, const std::string& what) const;
   void choose_zone();
   void read_points();
+  std::vector<Section> sections_in_order() const;
   void read_sections();
-  void read_mixed(const std::string& section, cgsize_t first, cgsize_t last,
-                  const std::vector<cgsize_t>& entries);
+  void read_section(const Section& section);
+  void read_mixed(const Section& section, const std::vector<cgsize_t>& entries);
   void add_element(ElementType type, const cgsize_t* points, cgsize_t number, const std::string& section);
   void read_conditions();
   void read_condition(int condition);
   std::string family_of(int condition) const;
-  Triangle& triangle_of(cgsize_t element, const std::string& condition);
-  std::size_t index_of(const std::string& name);
+  Label& label_of(cgsize_t element, const std::string& condition);
+  std::int32_t index_of(const std::string& name);
   void make_patches();
 
   std::string path_;
@@ -84,7 +98,8 @@ class CgnsReader {
   int file_ = 0, base_ = 1, zone_ = 1;
   cgsize_t point_count_ = 0;
   Mesh mesh_;
-  std::vector<Triangle> triangles_;
+  std::vector<std::array<GlobalIndex, 3>> triangles_;  ///< points, in the order of the elements
+  std::vector<Label> labels_;                          ///< of each triangle
   std::vector<std::string> names_;
   std::map<std::string, GlobalIndex> refused_;  ///< elements by type that the solver cannot take
 };
@@ -152,7 +167,6 @@ void CgnsReader::read_points() {
     Name name{};
     CGNS_ENUMT(DataType_t) type{};
     check(cg_coord_info(file_, base_, zone_, i, &type, name.data()));
-    check_size(point_count_, type == CGNS_ENUMV(RealDouble) ? 8 : 4, name.data());
     names.insert(name.data());
   }
   const std::array<const char*, 3> axes{"CoordinateX", "CoordinateY", "CoordinateZ"};
@@ -160,47 +174,52 @@ void CgnsReader::read_points() {
     fail(fmt::format("the coordinates are \"{}\"", fmt::join(names, ", ")),
          "only Cartesian CoordinateX, CoordinateY and CoordinateZ can be used");
 
+  check_size(point_count_, 3 * 4, "the list of points");
   mesh_.points.resize(static_cast<std::size_t>(point_count_));
-  std::vector<double> values(mesh_.points.size());
+  std::vector<double> values(std::min<std::size_t>(mesh_.points.size(), piece));
   for (int axis = 0; axis < 3; ++axis) {
-    cgsize_t first = 1, last = point_count_;
-    check(cg_coord_read(file_, base_, zone_, axes[static_cast<std::size_t>(axis)], CGNS_ENUMV(RealDouble),
-                        &first, &last, values.data()));
-    for (std::size_t i = 0; i < values.size(); ++i) mesh_.points[i][axis] = values[i];
+    for (std::int64_t before = 0; before < point_count_; before += piece) {
+      const auto first = static_cast<cgsize_t>(before + 1),
+                 last = static_cast<cgsize_t>(std::min<std::int64_t>(before + piece, point_count_));
+      check(cg_coord_read(file_, base_, zone_, axes[static_cast<std::size_t>(axis)], CGNS_ENUMV(RealDouble),
+                          &first, &last, values.data()));
+      for (std::int64_t i = before; i < last; ++i)
+        mesh_.points[static_cast<std::size_t>(i)][axis] = values[static_cast<std::size_t>(i - before)];
+    }
   }
 }
 
-void CgnsReader::read_sections() {
-  int sections = 0;
-  check(cg_nsections(file_, base_, zone_, &sections));
-  for (int section = 1; section <= sections; ++section) {
+/// Sections by the numbers of their elements, which no two share.
+std::vector<CgnsReader::Section> CgnsReader::sections_in_order() const {
+  int count = 0;
+  check(cg_nsections(file_, base_, zone_, &count));
+  std::vector<Section> out;
+  for (int index = 1; index <= count; ++index) {
     Name name{};
-    ElementType type{};
-    cgsize_t first = 0, last = 0, size = 0;
-    int sorted = 0, has_parents = 0, nodes = 0;
-    check(cg_section_read(file_, base_, zone_, section, name.data(), &type, &first, &last, &sorted,
-                          &has_parents));
-    const auto count = std::int64_t{last} - first + 1;
-    if (first < 1 || count < 1)
-      fail(fmt::format("section {} has elements {} to {}", name.data(), first, last));
-    if (type != tetrahedron && type != triangle && type != mixed) {
-      if (!is_below_surface(type)) refused_[cg_ElementTypeName(type)] += count;
-      continue;
-    }
-    check(cg_ElementDataSize(file_, base_, zone_, section, &size));
-    check_size(size, 4, fmt::format("section {}", name.data()));
-    std::vector<cgsize_t> entries(static_cast<std::size_t>(size));
-    if (type == mixed) {
-      check(cg_poly_elements_read(file_, base_, zone_, section, entries.data(), nullptr, nullptr));
-      read_mixed(name.data(), first, last, entries);
-      continue;
-    }
-    check(cg_elements_read(file_, base_, zone_, section, entries.data(), nullptr));
-    check(cg_npe(type, &nodes));
-    if (std::ssize(entries) != count * nodes)
-      fail(fmt::format("section {} has {} elements in {} numbers", name.data(), count, size));
-    for (std::int64_t i = 0; i < count; ++i)
-      add_element(type, entries.data() + i * nodes, static_cast<cgsize_t>(first + i), name.data());
+    Section section;
+    int boundary = 0, has_parents = 0;
+    check(cg_section_read(file_, base_, zone_, index, name.data(), &section.type, &section.first,
+                          &section.last, &boundary, &has_parents));
+    section.index = index;
+    section.name = name.data();
+    if (section.first < 1 || section.last < section.first)
+      fail(fmt::format("section {} has elements {} to {}", section.name, section.first, section.last));
+    append(out, section, *this);
+  }
+  std::ranges::stable_sort(out, {}, &Section::first);
+  for (std::size_t i = 1; i < out.size(); ++i)
+    if (out[i].first <= out[i - 1].last)
+      fail(fmt::format("sections {} and {} both have an element {}", out[i - 1].name, out[i].name,
+                       out[i].first));
+  return out;
+}
+
+void CgnsReader::read_sections() {
+  for (const Section& section : sections_in_order()) {
+    if (section.type == tetrahedron || section.type == triangle || section.type == mixed)
+      read_section(section);
+    else if (!is_below_surface(section.type))
+      refused_[cg_ElementTypeName(section.type)] += std::int64_t{section.last} - section.first + 1;
   }
   if (!refused_.empty()) {
     std::string list;
@@ -211,19 +230,45 @@ void CgnsReader::read_sections() {
   if (mesh_.cells.empty()) fail("the mesh has no tetrahedra", "write the volume elements too");
 }
 
+void CgnsReader::read_section(const Section& section) {
+  cgsize_t size = 0;
+  check(cg_ElementDataSize(file_, base_, zone_, section.index, &size));
+  check_size(size, 4, fmt::format("section {}", section.name));
+  if (section.type == mixed) {
+    std::vector<cgsize_t> entries(static_cast<std::size_t>(size));
+    check(cg_poly_elements_read(file_, base_, zone_, section.index, entries.data(), nullptr, nullptr));
+    return read_mixed(section, entries);
+  }
+  const std::int64_t nodes = section.type == tetrahedron ? 4 : 3;
+  const auto count = std::int64_t{section.last} - section.first + 1;
+  if (count * nodes != size)
+    fail(fmt::format("section {} has {} elements in {} numbers", section.name, count, size));
+  if (section.type == tetrahedron) reserve_more(mesh_.cells, count, *this);
+  if (section.type == triangle) reserve_more(triangles_, count, *this);
+  std::vector<cgsize_t> entries(static_cast<std::size_t>(std::min(count, piece) * nodes));
+  for (std::int64_t first = section.first; first <= section.last; first += piece) {
+    const auto last = std::min<std::int64_t>(first + piece - 1, section.last);
+    check(cg_elements_partial_read(file_, base_, zone_, section.index, static_cast<cgsize_t>(first),
+                                   static_cast<cgsize_t>(last), entries.data(), nullptr));
+    for (std::int64_t number = first; number <= last; ++number)
+      add_element(section.type, entries.data() + (number - first) * nodes, static_cast<cgsize_t>(number),
+                  section.name);
+  }
+}
+
 /// Elements of several types, each behind the number of its type.
-void CgnsReader::read_mixed(const std::string& section, cgsize_t first, cgsize_t last,
-                            const std::vector<cgsize_t>& entries) {
+void CgnsReader::read_mixed(const Section& section, const std::vector<cgsize_t>& entries) {
   std::size_t at = 0;
-  for (std::int64_t number = first; number <= last; ++number) {
+  for (std::int64_t number = section.first; number <= section.last; ++number) {
     int nodes = 0;
-    if (at == entries.size()) fail(fmt::format("section {} ends before element {}", section, number));
+    if (at == entries.size()) fail(fmt::format("section {} ends before element {}", section.name, number));
     const auto type = static_cast<ElementType>(entries[at++]);
     if (type <= 0 || type >= NofValidElementTypes || cg_npe(type, &nodes) != CG_OK || nodes <= 0)
-      fail(fmt::format("element {} in section {} has the unknown type {}", number, section, entries[at - 1]));
+      fail(fmt::format("element {} in section {} has the unknown type {}", number, section.name,
+                       entries[at - 1]));
     if (static_cast<std::size_t>(nodes) > entries.size() - at)
-      fail(fmt::format("section {} ends inside element {}", section, number));
-    add_element(type, entries.data() + at, static_cast<cgsize_t>(number), section);
+      fail(fmt::format("section {} ends inside element {}", section.name, number));
+    add_element(type, entries.data() + at, static_cast<cgsize_t>(number), section.name);
     at += static_cast<std::size_t>(nodes);
   }
 }
@@ -238,16 +283,17 @@ void CgnsReader::add_element(ElementType type, const cgsize_t* points, cgsize_t 
       ids[k] = points[k] - 1;
     }
   };
-  if (type == tetrahedron)
-    set_points(mesh_.cells.emplace_back());
-  else if (type == triangle)
-    set_points(triangles_.emplace_back(Triangle{number, {}, index_of(section), false}).points);
-  else if (!is_below_surface(type))
+  if (type == tetrahedron) {
+    set_points(append(mesh_.cells, {}, *this));
+  } else if (type == triangle) {
+    set_points(append(triangles_, {}, *this));
+    append(labels_, {number, index_of(section), false}, *this);
+  } else if (!is_below_surface(type)) {
     ++refused_[cg_ElementTypeName(type)];
+  }
 }
 
 void CgnsReader::read_conditions() {
-  std::ranges::stable_sort(triangles_, {}, &Triangle::element);
   int conditions = 0;
   check(cg_nbocos(file_, base_, zone_, &conditions));
   for (int condition = 1; condition <= conditions; ++condition) read_condition(condition);
@@ -287,10 +333,10 @@ void CgnsReader::read_condition(int condition) {
   const auto family = family_of(condition);
   const auto index = index_of(family.empty() ? name.data() : family);
   for (const auto element : elements) {
-    Triangle& found = triangle_of(element, name.data());
+    Label& found = label_of(element, name.data());
     if (found.has_condition && found.name != index)
       fail(fmt::format("element {} belongs to two boundary conditions, {} and {}", element,
-                       names_[found.name], names_[index]),
+                       names_[static_cast<std::size_t>(found.name)], names_[static_cast<std::size_t>(index)]),
            "give every triangle one");
     found.has_condition = true;
     found.name = index;
@@ -307,27 +353,33 @@ std::string CgnsReader::family_of(int condition) const {
   return name.data();
 }
 
-CgnsReader::Triangle& CgnsReader::triangle_of(cgsize_t element, const std::string& condition) {
-  const auto found = std::ranges::lower_bound(triangles_, element, {}, &Triangle::element);
-  if (found == triangles_.end() || found->element != element)
+CgnsReader::Label& CgnsReader::label_of(cgsize_t element, const std::string& condition) {
+  const auto found = std::ranges::lower_bound(labels_, element, {}, &Label::element);
+  if (found == labels_.end() || found->element != element)
     fail(fmt::format("boundary condition {} lists element {}, which is no TRI_3", condition, element));
   return *found;
 }
 
-std::size_t CgnsReader::index_of(const std::string& name) {
-  if (!names_.empty() && names_.back() == name) return names_.size() - 1;
-  const auto index = static_cast<std::size_t>(std::ranges::find(names_, name) - names_.begin());
-  if (index == names_.size()) names_.push_back(name);
-  return index;
+std::int32_t CgnsReader::index_of(const std::string& name) {
+  if (!names_.empty() && names_.back() == name) return static_cast<std::int32_t>(names_.size() - 1);
+  const auto index = std::ranges::find(names_, name) - names_.begin();
+  if (index == std::ssize(names_)) names_.push_back(name);
+  return static_cast<std::int32_t>(index);
 }
 
 /// Patches in the order of their first triangles.
 void CgnsReader::make_patches() {
+  std::vector<GlobalIndex> sizes(names_.size(), 0);
+  for (const Label& label : labels_) ++sizes[static_cast<std::size_t>(label.name)];
   std::vector<Patch*> patch_of(names_.size(), nullptr);
   mesh_.patches.reserve(names_.size());
-  for (const auto& [element, points, name, has_condition] : triangles_) {
-    if (!patch_of[name]) patch_of[name] = &mesh_.patches.emplace_back(Patch{names_[name], {}});
-    patch_of[name]->triangles.push_back(points);
+  for (std::size_t i = 0; i < triangles_.size(); ++i) {
+    const auto name = static_cast<std::size_t>(labels_[i].name);
+    if (!patch_of[name]) {
+      patch_of[name] = &mesh_.patches.emplace_back(Patch{names_[name], {}});
+      patch_of[name]->triangles.reserve(static_cast<std::size_t>(sizes[name]));
+    }
+    patch_of[name]->triangles.push_back(triangles_[i]);
   }
 }
 

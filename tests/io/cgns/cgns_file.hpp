@@ -31,18 +31,20 @@ class CgnsFile {
   int base() const { return base_; }
   int zone() const { return zone_; }
 
+  /// `Number` is what the file keeps of a coordinate: double or float.
+  template <class Number = double>
   void add_zone(const Mesh& mesh, const std::string& name = "Zone", const std::string& axis = "Coordinate") {
     cgsize_t size[3] = {static_cast<cgsize_t>(mesh.points.size()), static_cast<cgsize_t>(mesh.cells.size()),
                         0};
     check(cg_zone_write(file_, base_, name.c_str(), size, CGNS_ENUMV(Unstructured), &zone_));
     next_ = 1;
     for (int d = 0; d < 3; ++d) {
-      std::vector<double> values;
-      for (const auto& point : mesh.points) values.push_back(point[d]);
+      std::vector<Number> values;
+      for (const auto& point : mesh.points) values.push_back(static_cast<Number>(point[d]));
       int coordinate = 0;
       const std::string full = axis + "XYZ"[d];
-      check(cg_coord_write(file_, base_, zone_, CGNS_ENUMV(RealDouble), full.c_str(), values.data(),
-                           &coordinate));
+      const auto type = sizeof(Number) == 4 ? CGNS_ENUMV(RealSingle) : CGNS_ENUMV(RealDouble);
+      check(cg_coord_write(file_, base_, zone_, type, full.c_str(), values.data(), &coordinate));
     }
   }
 

@@ -212,6 +212,16 @@ TEST_F(Cgns, WrongPointsAndConditionsAreNamed) {
         file.add_condition("base", CGNS_ENUMV(PointList), {first + 1});
       }),
       AllOf(HasSubstr("two boundary conditions, wall and base"), HasSubstr("give every triangle one")));
+  EXPECT_THAT(
+      error_in([this](CgnsFile& file) {
+        add_volume(file, original_);
+        const std::vector<cgsize_t> points{1, 2, 3};
+        const auto last = static_cast<cgsize_t>(original_.cells.size());
+        int section = 0;
+        test::check(cg_section_write(file.id(), file.base(), file.zone(), "lid", CGNS_ENUMV(TRI_3), last,
+                                     last, 0, points.data(), &section));
+      }),
+      HasSubstr("sections Volume and lid both have an element " + std::to_string(original_.cells.size())));
   EXPECT_THAT(error_in([this](CgnsFile& file) { file.add_zone(original_, "Zone", "Radius"); }),
               HasSubstr("RadiusX, RadiusY, RadiusZ"));
 }

@@ -4,7 +4,9 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <filesystem>
 #include <fstream>
+#include <string>
 
 #include "core/error.hpp"
 #include "io/cgns/cgns_file.hpp"
@@ -34,6 +36,34 @@ Ending convert(const std::string& path, std::size_t size) {
     // Refusing is as good.
   }
   return memory.largest <= 2 * size + 16384 ? ending : Ending::wrong;
+}
+
+std::size_t size_of(const std::string& path) {
+  return static_cast<std::size_t>(std::filesystem::file_size(path));
+}
+
+/// Sound files of nothing but numbers of 32 bits, which take twice as many in memory: the limit is met, by
+/// points, by tetrahedra, and by triangles, of which a file may hold any number.
+TEST(CgnsMutants, SoundFilesOfTheSmallestNumbersStayWithinTheLimit) {
+  const TemporaryFolder folder;
+  const std::string path = folder / "mesh.cgns";
+  Mesh mesh = testing_support::box_mesh({.cells = {16, 16, 16}, .upper = {1, 1, 1}});
+  const auto write = [&](int repetitions) {
+    test::CgnsFile file(path);
+    file.add_zone<float>(mesh);
+    file.add_section("Volume", CGNS_ENUMV(TETRA_4), mesh.cells);
+    for (int i = 0; i < repetitions; ++i)
+      for (const auto& patch : mesh.patches)
+        file.add_section(patch.name + std::to_string(i), CGNS_ENUMV(TRI_3), patch.triangles);
+  };
+  write(1);
+  EXPECT_EQ(convert(path, size_of(path)), Ending::mesh);
+  EXPECT_GT(memory.largest, size_of(path));  // the limit is near, and the measure works
+  write(20);
+  EXPECT_EQ(convert(path, size_of(path)), Ending::mesh);
+  mesh.cells.resize(1);
+  write(1);
+  EXPECT_EQ(convert(path, size_of(path)), Ending::mesh);
 }
 
 /// Each mutant in a process of its own, as the converter is: after an error the CGNS library gives errors for
