@@ -33,6 +33,11 @@ struct PerformanceResult {
        steady_cpu_s = not_measured;  ///< of these, the march to the steady state
   Real motion_cpu_s = not_measured;  ///< of these, the march along the motion
   Real linear_cpu_s = not_measured;  ///< of these, the linear solves for the derivatives
+  std::int64_t checkpoints = 0;      ///< written
+  Real checkpoint_wall_s = not_measured,
+       checkpoint_cpu_s = not_measured;  ///< of wall_s and cpu_s, the writing of all these checkpoints
+  Real restart_wall_s = not_measured,
+       restart_cpu_s = not_measured;  ///< the reading and verifying of the one that the run went on from
   std::int64_t iterations = 0;
   Real core_us_per_cell_iteration = not_measured;
   Real bytes_per_cell = not_measured;          ///< of the solver's and the mesh's arrays

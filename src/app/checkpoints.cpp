@@ -54,6 +54,7 @@ Checkpoints::Checkpoints(const Setup& setup, std::string folder, const Timer& si
 }
 
 void Checkpoints::begin_from(const std::string& file) {
+  const Timer cost;
   RestartPoint point;
   comm_.on_root([&] {
     if (!file.empty()) {
@@ -81,10 +82,13 @@ void Checkpoints::begin_from(const std::string& file) {
   point.head.history.info = info;
   spdlog::info("goes on from {}", point.path);
   restart_ = std::move(point);
+  reading_.add(cost);
 }
 
-void Checkpoints::read(const std::vector<CheckpointField>& fields) const {
+void Checkpoints::read(const std::vector<CheckpointField>& fields) {
+  const Timer cost;
   file_.read_fields(restart_->path, fields);
+  reading_.add(cost);
 }
 
 bool Checkpoints::found_stop_file() {
@@ -156,6 +160,7 @@ void Checkpoints::save(const CheckpointHead& head, const std::vector<CheckpointF
   last_save_ = since_start_.wall();
   spdlog::info("checkpoint {} ({:.2f} s)", latest_, last_cost_);
   if (comm_.is_root()) in_folder_->added();
+  writing_.add(cost);
 }
 
 }  // namespace alphadot

@@ -33,7 +33,7 @@ class Checkpoints {
   /// The case that it was made with.
   const Case& case_before() const { return case_before_; }
   /// Its states. Collective.
-  void read(const std::vector<CheckpointField>& fields) const;
+  void read(const std::vector<CheckpointField>& fields);
 
   /// Signals, stop file and clock of all ranks, for the all-reduces of an iteration. Refers to this object.
   Passengers passengers();
@@ -46,6 +46,10 @@ class Checkpoints {
   void save(const CheckpointHead& head, const std::vector<CheckpointField>& fields);
   /// Why wish() is for the end.
   const std::string& stop_reason() const { return stop_reason_; }
+
+  /// What the checkpoints that were written have cost this rank, and what beginning from one has.
+  const TimeSpent& writing() const { return writing_; }
+  const TimeSpent& reading() const { return reading_; }
 
  private:
   std::vector<Real> asked_here();
@@ -65,6 +69,7 @@ class Checkpoints {
   std::string stop_reason_;
   std::string latest_;  ///< file name of the last whole checkpoint, on the root
   Real last_wish_, longest_step_ = 0, last_save_, last_cost_ = 0, last_look_ = -1;  ///< seconds
+  TimeSpent writing_, reading_;
 };
 
 }  // namespace alphadot

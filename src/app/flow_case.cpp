@@ -245,6 +245,12 @@ PerformanceResult FlowCase::performance() const {
   out.cpu_s = comm_.sum(timer_.cpu());
   out.steady_wall_s = comm_.max(steady_wall_);
   out.steady_cpu_s = comm_.sum(steady_cpu_);
+  const auto &writing = checkpoints_.writing(), &reading = checkpoints_.reading();
+  out.checkpoints = writing.times;
+  out.checkpoint_wall_s = comm_.max(writing.wall);
+  out.checkpoint_cpu_s = comm_.sum(writing.cpu);
+  out.restart_wall_s = comm_.max(reading.wall);
+  out.restart_cpu_s = comm_.sum(reading.cpu);
   out.iterations = iteration_.iterations();
   const auto iterations = static_cast<Real>(std::max<GlobalIndex>(out.iterations, 1));
   out.core_us_per_cell_iteration = 1e6 * out.cpu_s / (cells * iterations);
@@ -312,9 +318,10 @@ void FlowCase::print(const Result& result, std::span<const TableRow> derivatives
   const auto& p = result.performance;
   spdlog::info(
       "{}: {} wall, {:.1f} s of processor, {} iterations, {:.3f} us of core time per cell and iteration, "
-      "{:.0f} bytes per cell, {:.1f} % waiting for halos\nwritten to {}",
+      "{:.0f} bytes per cell, {:.1f} % waiting for halos, {:.1f} % writing {} checkpoint{}\nwritten to {}",
       to_string(result.status), duration_text(p.wall_s), p.cpu_s, p.iterations, p.core_us_per_cell_iteration,
-      p.bytes_per_cell, 100 * p.halo_fraction, folder_);
+      p.bytes_per_cell, 100 * p.halo_fraction, 100 * p.checkpoint_wall_s / p.wall_s, p.checkpoints,
+      p.checkpoints == 1 ? "" : "s", folder_);
 }
 
 }  // namespace alphadot

@@ -26,4 +26,17 @@ class Timer {
   Real cpu_start_ = cpu_now();
 };
 
+/// What work costs that comes again and again: seconds of this rank.
+struct TimeSpent {
+  Real wall = 0, cpu = 0;
+  int times = 0;
+
+  /// Counts the stretch that `timer` has measured up to now.
+  void add(const Timer& timer) {
+    wall += timer.wall();
+    cpu += timer.cpu();
+    ++times;
+  }
+};
+
 }  // namespace alphadot

@@ -63,8 +63,12 @@ class Commands(unittest.TestCase):
         self.assertLessEqual({"CA", "CY", "CN", "Cl", "Cm", "Cn"}, result["forces"].keys())
         for name in ("CN_alpha", "Cm_alpha", "CN_alphadot", "Cm_alphadot"):
             self.assertEqual(result["derivatives"][name].keys(), {"value", "uncertainty", "method"})
-        for name in ("wall_s", "cpu_s", "iterations", "core_us_per_cell_iteration", "bytes_per_cell"):
-            self.assertGreater(result["performance"][name], 0)
+        cost = result["performance"]
+        for name in ("wall_s", "cpu_s", "iterations", "core_us_per_cell_iteration", "bytes_per_cell", "checkpoint_wall_s"):
+            self.assertGreater(cost[name], 0)
+        self.assertLess(cost["checkpoint_wall_s"], cost["wall_s"])
+        self.assertEqual(cost["checkpoints"], 2)  # after the steady state and at the end
+        self.assertEqual(cost["restart_wall_s"], 0)
         self.assertRegex(result["provenance"]["version"], r"^\d+\.\d+\.\d+")
 
     def assert_flat_plate(self, derivatives: dict) -> None:

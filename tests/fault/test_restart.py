@@ -69,6 +69,7 @@ class Restart(CaseInFolder):
         self.run_ok(self.part)
         self.run_ok(self.part, "--restart", *longer)
         self.assertEqual(differences(self.full, self.part), [])
+        self.assertGreater(result(self.part)["performance"]["restart_wall_s"], 0)
 
     def test_a_finished_run_stays_finished(self) -> None:
         self.run_ok(self.full)
