@@ -98,8 +98,9 @@ std::vector<CaseKey> make_keys() {
       .key("gradient", &SpaceSettings::gradient, WordValue{words_of<GradientKind>}, "gradient of a cell")
       .key("limiter", &SpaceSettings::limiter, WordValue{words_of<LimiterKind>}, "limiter of the gradient")
       .key("limiter_k", &SpaceSettings::limiter_k, positive, "Venkatakrishnan's K")
-      .key("freeze_orders", &SpaceSettings::freeze_orders, NumberValue{.from = 0, .to = 16},
-           "decades of residual after which the limiter is frozen; 0: never")
+      .key(
+          "freeze_orders", &SpaceSettings::freeze_orders, NumberValue{.from = 0, .to = 16},
+          "decades of residual after which the limiter is frozen, or before where the march stalls; 0: never")
       .key("entropy_fix", &SpaceSettings::entropy_fix, NumberValue{.from = 0, .to = 1},
            "Harten's delta as a share of the spectral radius");
 

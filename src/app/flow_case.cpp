@@ -148,6 +148,8 @@ CheckpointHead FlowCase::steady_head(std::string phase) const {
   out.numbers["iteration"] = {static_cast<Real>(steady_state_.iteration)};
   out.numbers["cfl"] = {steady_state_.cfl};
   out.numbers["residuals"] = {steady_state_.first_residual, steady_state_.previous_residual};
+  out.numbers["lowest_residual"] = {steady_state_.lowest_residual,
+                                    static_cast<Real>(steady_state_.lowest_at)};
   return out;
 }
 
@@ -160,8 +162,12 @@ RunStatus FlowCase::march() {
   const auto now = conditions();
   if (restart) {
     const auto& numbers = restart->numbers;
-    steady_state_ = {static_cast<int>(numbers.at("iteration").at(0)), numbers.at("cfl").at(0),
-                     numbers.at("residuals").at(0), numbers.at("residuals").at(1)};
+    steady_state_ = {static_cast<int>(numbers.at("iteration").at(0)),
+                     numbers.at("cfl").at(0),
+                     numbers.at("residuals").at(0),
+                     numbers.at("residuals").at(1),
+                     numbers.at("lowest_residual").at(0),
+                     static_cast<int>(numbers.at("lowest_residual").at(1))};
     restore();
   } else {
     iteration_.set_uniform(now.free_stream);
@@ -196,9 +202,10 @@ RunStatus FlowCase::march() {
   steady_cpu_ = timer.cpu();
   steady_report_ = result.report;
   if (result.status == RunStatus::interrupted) message_ = checkpoints_.stop_reason();
-  if (result.report.limited_faces > 0)
-    spdlog::info("{} faces fall back towards first order to keep density and pressure positive",
-                 result.report.limited_faces);
+  if (const auto& report = result.report; report.positivity_cells + report.positivity_faces > 0)
+    spdlog::info(
+        "{} cells and {} more faces fall back towards first order to keep density and pressure positive",
+        report.positivity_cells, report.positivity_faces);
   if (result.status == RunStatus::diverged)
     throw DivergedError("the steady march found no CFL number that holds");
   if (result.status == RunStatus::completed) {

@@ -46,7 +46,9 @@ FlowReport ImplicitIteration::report() const {
   }
   auto numbers = numbers_of(wall_loads(discretization_, residual_, moment_center_));
   const std::size_t of_loads = numbers.size();
-  numbers.insert(numbers.end(), {square, not_finite, static_cast<Real>(residual_.limited_faces())});
+  numbers.insert(numbers.end(),
+                 {square, not_finite, static_cast<Real>(residual_.reconstruction().positivity_cells()),
+                  static_cast<Real>(residual_.positivity_faces())});
   sum(numbers);
   FlowReport out;
   out.loads = loads_of(std::span(numbers).first(of_loads));
@@ -55,7 +57,8 @@ FlowReport ImplicitIteration::report() const {
   not_finite = numbers[of_loads + 1];
   out.density_residual = std::sqrt(square / static_cast<Real>(discretization_.domain().global_cells));
   out.physical = not_finite == 0 && std::isfinite(square);
-  out.limited_faces = static_cast<GlobalIndex>(numbers[of_loads + 2]);
+  out.positivity_cells = static_cast<GlobalIndex>(numbers[of_loads + 2]);
+  out.positivity_faces = static_cast<GlobalIndex>(numbers[of_loads + 3]);
   return out;
 }
 

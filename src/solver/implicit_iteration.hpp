@@ -19,7 +19,9 @@ struct FlowReport {
   Real density_residual = 0;  ///< root of the mean square over all cells of the net mass outflow
   std::vector<Load> loads;    ///< of every patch
   Load total;                 ///< their sum
-  GlobalIndex limited_faces = 0;
+  /// Where density and pressure are kept positive: cells whose gradients are cut for it, and faces that use
+  /// less than the limited gradients.
+  GlobalIndex positivity_cells = 0, positivity_faces = 0;
   bool physical = true;  ///< every residual is finite
 };
 

@@ -27,4 +27,13 @@ inline FourReals barth_jespersen(const FourReals& delta, const FourReals& room) 
   return delta == 0 ? four(1) : minimum(room / delta, four(1));
 }
 
+/// Share of a limited gradient that leaves every face of the cell half of the cell's density and pressure
+/// (the scaling of Zhang & Shu 2010). `lowest`: the smallest ratio of a face's value to the cell's. Without
+/// it a cell in a strong expansion can lose energy through one face for ever while others fall back, and runs
+/// into vacuum.
+inline Real positive_share(Real lowest) {
+  constexpr Real kept = 0.5;
+  return lowest >= kept ? 1 : (1 - kept) / (1 - lowest);
+}
+
 }  // namespace alphadot

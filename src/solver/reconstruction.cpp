@@ -73,6 +73,7 @@ Reconstruction<T>::Reconstruction(const Discretization& discretization, const Co
 template <class T>
 void Reconstruction<T>::update(FlowField<T>& flow) {
   const Subdomain& domain = discretization_.domain();
+  if (!frozen_) positivity_cells_ = 0;
   gather_points(flow, 0, domain.interior_points);
   fit_cells(flow, 0, domain.interior_cells);
   flow.finish_exchange();
@@ -198,8 +199,21 @@ T change_at(const Gradient<T>& gradient, const Vec3& offset, int i) {
 constexpr bool is_at_corners(LimiterKind limiter) {
   return limiter == LimiterKind::mlp_u2;
 }
+constexpr Real to_face = 1.0 / 3;
 constexpr Real reach(LimiterKind limiter) {
-  return is_at_corners(limiter) ? -1.0 : 1.0 / 3;
+  return is_at_corners(limiter) ? -1.0 : to_face;
+}
+
+constexpr bool must_be_positive(int variable) {
+  return variable == 0 || variable == 4;
+}
+
+/// Smallest ratio of a face's value to the cell's, from the changes `delta` that the whole gradient makes
+/// where the limiter looks.
+template <LimiterKind limiter>
+Real lowest_ratio(const FourReals& delta, Real factor, Real value) {
+  constexpr Real to_faces = to_face / reach(limiter);
+  return 1 + factor * smallest_of(to_faces * delta) / value;
 }
 
 /// (K h)^3 with h^3 = 6 V (a cube's corner), times the square of the variable's scale: density 1, speed 1,
@@ -215,7 +229,7 @@ Five<Real> passed_wiggles(const Discretization& discretization, Index cell) {
 template <class T>
 template <LimiterKind limiter>
 Primitive<T> Reconstruction<T>::limiter_factors(Index cell, const Arms& arms, const Primitive<T>& w,
-                                                const Gradient<T>& gradient) const {
+                                                const Gradient<T>& gradient) {
   const auto& corners = discretization_.domain().cell_points[cell];
   const Five<Real> epsilon2 = passed_wiggles(discretization_, cell);
   // All corners at once, a variable after the other.
@@ -225,6 +239,7 @@ Primitive<T> Reconstruction<T>::limiter_factors(Index cell, const Arms& arms, co
                   y = reach(limiter) * FourReals{arms[0].y, arms[1].y, arms[2].y, arms[3].y},
                   z = reach(limiter) * FourReals{arms[0].z, arms[1].z, arms[2].z, arms[3].z};
   Primitive<T> out;
+  Real lowest = 1;
   for (int i = 0; i < 5; ++i) {
     FourReals low{}, high{};
     for (std::size_t corner = 0; corner < 4; ++corner) {
@@ -239,8 +254,12 @@ Primitive<T> Reconstruction<T>::limiter_factors(Index cell, const Arms& arms, co
                             z * value_of(gradient.along[2][i]);
     const FourReals room = (delta > 0 ? high : low) - value_of(w[i]);
     out[i] = std::min(smallest_of(limited_share<limiter>(delta, room, four(epsilon2[i]))), Real{1});
+    if (must_be_positive(i))
+      lowest = std::min(lowest, lowest_ratio<limiter>(delta, value_of(out[i]), value_of(w[i])));
   }
-  return out;
+  const Real share = positive_share(lowest);
+  if (share < 1) ++positivity_cells_;
+  return share * out;
 }
 
 template <class T>
@@ -283,6 +302,14 @@ LimiterSlope Reconstruction<T>::limiter_slope(Index cell, const FlowField<T>& fl
                                                       [&](Index other) { return side * flow[other][i]; });
     }
   }
+  Real lowest = 1;
+  for (int i = 0; i < 5; ++i) {
+    if (!must_be_positive(i)) continue;
+    for (const Vec3& arm : arms)
+      lowest = std::min(lowest, 1 + out.factor[i] * change_at(out.gradient, to_face * arm, i) / w[i]);
+  }
+  const Real share = positive_share(lowest);  // held
+  for (auto* numbers : {&out.factor, &out.by_delta, &out.by_room}) *numbers = share * *numbers;
   return out;
 }
 

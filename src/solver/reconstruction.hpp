@@ -44,8 +44,8 @@ inline Primitive<Real> extrapolated(const Primitive<Real>& state, const Gradient
 }
 
 /// Share of a reconstruction that a face may use: all of it while the state on the face keeps a fifth of the
-/// cell's density and pressure, in proportion below, none of it at vacuum. Continuous, so that a march can
-/// come to rest at such a face.
+/// cell's density and pressure, in proportion below, none of it at vacuum. A limiter that is not frozen
+/// leaves every face more than that. Continuous, so that a march can come to rest at such a face.
 template <class T>
 T usable_share(const Primitive<T>& face, const Primitive<T>& cell) {
   constexpr Real kept = 0.2;
@@ -81,6 +81,8 @@ class Reconstruction {
   bool limiter_is_frozen() const { return frozen_; }
   /// [owned_cells] of the latest evaluation; empty when the case never freezes them.
   std::span<Five<float>> limiter_factors() { return factors_; }
+  /// Owned cells whose limiter's factors also keep density and pressure positive, when they last changed.
+  Index positivity_cells() const { return positivity_cells_; }
   /// Brings the gradients of face ghosts up to date.
   void start_exchange() { gradients_.start_exchange(); }
   void finish_exchange() { gradients_.finish_exchange(); }
@@ -118,7 +120,7 @@ class Reconstruction {
   Gradient<T> unlimited(Index cell, const Arms& arms, const Primitive<T>& w) const;
   template <LimiterKind limiter>
   Primitive<T> limiter_factors(Index cell, const Arms& arms, const Primitive<T>& w,
-                               const Gradient<T>& gradient) const;
+                               const Gradient<T>& gradient);
   template <LimiterKind limiter>
   void follow_limiter(Index cell, const FlowField<T>& flow, const Arms& arms, Gradient<T>& gradient) const;
   template <LimiterKind limiter>
@@ -129,6 +131,7 @@ class Reconstruction {
   std::vector<PointSums> points_;     // [owned_points]
   std::vector<Five<float>> factors_;  // [owned_cells] of the limiter, when the case may freeze it
   bool frozen_ = false;
+  Index positivity_cells_ = 0;
   std::span<const LimiterSlope> slopes_;  // [owned_cells] or none
 };
 

@@ -20,7 +20,7 @@ void Residual<T>::evaluate(FlowField<T>& flow, const Conditions<T>& conditions, 
                            std::span<Conserved<T>> residual) {
   const Subdomain& domain = discretization_.domain();
   const auto cut_end = static_cast<Index>(domain.faces.size());
-  limited_faces_ = 0;
+  positivity_faces_ = 0;
   std::fill(residual.begin(), residual.end(), Conserved<T>{});
   flow.start_exchange();
   if (order > 1) {
@@ -140,7 +140,7 @@ void Residual<T>::interior_faces(const FlowField<T>& flow, const Conditions<T>& 
         if (share < T(1)) {
           wl += share * (l - wl);
           wr += share * (r - wr);
-          if (lane < count) ++limited_faces_;
+          if (lane < count) ++positivity_faces_;
         } else {
           wl = l;
           wr = r;

@@ -27,9 +27,9 @@ class Residual {
   /// Holds the limiter's factors, or lets them go.
   void freeze_limiter(bool frozen) { reconstruction_.freeze_limiter(frozen); }
   std::span<Five<float>> limiter_factors() { return reconstruction_.limiter_factors(); }
-  /// Faces on this rank where the latest evaluation used less than the whole reconstruction to keep
+  /// Faces on this rank where the latest evaluation used less than the whole limited gradients to keep
   /// density and pressure positive.
-  Index limited_faces() const { return limited_faces_; }
+  Index positivity_faces() const { return positivity_faces_; }
   /// State of a cell carried to one of its faces.
   Primitive<T> face_state(const FlowField<T>& flow, Index cell, const Vec3& face_center, int order) const;
   /// [boundary_faces] pressure in the latest evaluation: on walls and symmetry planes that which acts on
@@ -49,7 +49,7 @@ class Residual {
   const Discretization& discretization_;
   Reconstruction<T> reconstruction_;
   std::vector<T> boundary_pressures_;
-  Index limited_faces_ = 0;
+  Index positivity_faces_ = 0;
 };
 
 }  // namespace alphadot

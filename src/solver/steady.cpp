@@ -16,6 +16,10 @@ constexpr Real early_orders = 2;
 /// Iterations of first order that follow a rejected step.
 constexpr int rescue_iterations = 20;
 constexpr int most_rejections = 6;
+/// The limiter is frozen once the flow has taken shape and so many iterations have not lowered the residual
+/// to this share of the lowest.
+constexpr int stalled_iterations = 20;
+constexpr Real stalled_orders = 1, little_progress = 0.8;
 
 /// Size of a density residual that is nothing but round-off: the mass flux through a mean face in double
 /// precision.
@@ -48,6 +52,8 @@ SteadyResult march_to_steady(ImplicitIteration& iteration, const Conditions<Real
   FlowReport report = evaluate();
   const Real first = resumed ? from.first_residual : report.density_residual;
   Real previous = resumed ? from.previous_residual : first;
+  Real lowest = resumed ? from.lowest_residual : first;
+  int lowest_at = from.lowest_at;
   int jacobian_age = late_jacobian_age;
   int count = from.iteration;
   const auto orders = [&] { return std::log10(first / std::max(report.density_residual, 1e-300)); };
@@ -57,6 +63,10 @@ SteadyResult march_to_steady(ImplicitIteration& iteration, const Conditions<Real
   };
   const auto jacobian_is_due = [&] {
     return jacobian_age >= (orders() < early_orders ? early_jacobian_age : late_jacobian_age);
+  };
+  const auto limiter_is_due = [&] {
+    const bool stalled = count - lowest_at >= stalled_iterations && orders() >= stalled_orders;
+    return freeze_orders > 0 && rescue == 0 && (orders() >= freeze_orders || stalled);
   };
   const auto ended = [&](RunStatus status) { return SteadyResult{status, count, report, orders()}; };
 
@@ -73,6 +83,7 @@ SteadyResult march_to_steady(ImplicitIteration& iteration, const Conditions<Real
     if (!report.physical || report.density_residual > residual_leap * previous ||
         report.density_residual > residual_growth * first) {
       iteration.undo();
+      iteration.freeze_limiter(false);
       cfl *= 0.1;
       jacobian_age = late_jacobian_age;
       if (++rejections > most_rejections || cfl < smallest_cfl) return ended(RunStatus::diverged);
@@ -87,9 +98,17 @@ SteadyResult march_to_steady(ImplicitIteration& iteration, const Conditions<Real
       previous = report.density_residual;
     }
     cfl = std::min(cfl * settings.cfl_growth, settings.cfl_max);
-    if (freeze_orders > 0 && orders() >= freeze_orders) iteration.freeze_limiter(true);
-    const bool go_on = observer(
-        {count, cfl, orders(), report, {count, cfl, first, previous}, jacobian_is_due() && rescue == 0});
+    if (rescue > 0 || previous < little_progress * lowest) {
+      lowest = previous;
+      lowest_at = count;
+    }
+    if (limiter_is_due()) iteration.freeze_limiter(true);
+    const bool go_on = observer({count,
+                                 cfl,
+                                 orders(),
+                                 report,
+                                 {count, cfl, first, previous, lowest, lowest_at},
+                                 jacobian_is_due() && rescue == 0});
     if (is_steady()) return ended(RunStatus::converged);
     if (!go_on) return ended(RunStatus::interrupted);
   }

@@ -13,6 +13,8 @@ struct SteadyState {
   int iteration = 0;
   Real cfl = 0;
   Real first_residual = 0, previous_residual = 0;
+  Real lowest_residual = 0;  ///< so far; steps of a few per cent are passed over
+  int lowest_at = 0;         ///< the iteration that reached it
 };
 
 /// Passed to the observer after every iteration.
@@ -37,8 +39,9 @@ struct SteadyResult {
 /// (status completed) or the observer returns false (interrupted). The CFL number grows while the residual
 /// behaves; when a state turns unphysical or the residual leaps, the step is taken back, the CFL number cut
 /// and some iterations of first order let the flow settle; after too many such steps the run is diverged. A
-/// residual of nothing but round-off counts as converged too. Starts from the flow in `iteration`, or goes on
-/// `from` the state that belongs to it.
+/// residual of nothing but round-off counts as converged too. The limiter is frozen after so many decades as
+/// its settings say, or where the residual has stopped to fall: at strong shocks it may never come to rest.
+/// Starts from the flow in `iteration`, or goes on `from` the state that belongs to it.
 SteadyResult march_to_steady(ImplicitIteration& iteration, const Conditions<Real>& conditions,
                              const SteadySettings& settings, int order,
                              const std::function<bool(const SteadyProgress&)>& observer,

@@ -40,6 +40,12 @@ class Finner(unittest.TestCase):
         self.assertLess(abs(forces["CN"]), 1e-6)
         self.assertLess(abs(forces["Cm"]), 1e-6)
 
+    def test_converges_where_cells_would_run_into_vacuum(self) -> None:
+        # Behind the fins' trailing edges, from 15 degrees on.
+        for alpha in (15.0, 20.0):
+            with self.subTest(alpha=alpha):
+                steady_forces(self.mesh, 2, alpha)
+
     def test_same_at_any_number_of_ranks(self) -> None:
         alone = steady_forces(self.mesh, 1, 1.5)
         for ranks in (2, 3, 4):

@@ -49,5 +49,12 @@ TEST(Venkatakrishnan, DependsOnRatiosAlone) {
     EXPECT_NEAR(venkatakrishnan(k * 0.4, k * 0.3, k * k * 0.01), venkatakrishnan(0.4, 0.3, 0.01), 1e-15);
 }
 
+// Zhang & Shu 2010: the lowest face is moved to the bound, others by the same share; nothing else changes.
+TEST(PositiveShare, LeavesEveryFaceHalf) {
+  for (const Real lowest : {0.5, 0.8, 1.0}) EXPECT_EQ(positive_share(lowest), 1);
+  for (const Real lowest : {0.4999, 0.2, 0.0, -1.0, -1e6})
+    EXPECT_NEAR(1 + positive_share(lowest) * (lowest - 1), 0.5, 1e-9);
+}
+
 }  // namespace
 }  // namespace alphadot
