@@ -201,7 +201,9 @@ class CaseReader {
 
   /// Defaults that depend on other keys, and absolute paths.
   void fill_in(Case& c) const {
-    for (auto* file : {&c.mesh.file, &c.motion.table_file})
+    std::vector<std::string*> files{&c.mesh.file, &c.motion.table_file};
+    for (auto& file : c.derivatives.coarser_meshes) files.push_back(&file);
+    for (auto* file : files)
       if (!file->empty()) *file = fs::absolute(fs::path(path_).parent_path() / *file).lexically_normal();
     if (!entries_.contains("motion.axis_point")) c.motion.axis_point = c.reference.moment_center;
     if (c.output.folder.empty()) c.output.folder = "runs/" + fs::path(path_).stem().string();

@@ -156,7 +156,9 @@ std::vector<CaseKey> make_keys() {
       .key("limiter_uncertainty", &DerivativeSettings::limiter_uncertainty, FlagValue{},
            "solve once more with the limiter's factors held at those of the steady flow, and add the "
            "difference "
-           "to the uncertainty; doubles the cost of the linear solves");
+           "to the uncertainty; doubles the cost of the linear solves")
+      .key("coarser_meshes", &DerivativeSettings::coarser_meshes, TextsValue{.most = 2},
+           "the same flow on these meshes too, the finer first, for the part of the mesh in the uncertainty");
 
   Table(keys, "output", &Case::output)
       .key("folder", &OutputSettings::folder, TextValue{}, "folder of the run")

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <utility>
 
 namespace alphadot {
 namespace {
@@ -86,6 +87,26 @@ MaybeProblem TextValue::read(const toml::node& node, std::string& value) const {
   if (text->empty() && !may_be_empty) return Problem{"", 0, "must not be empty", ""};
   value = *text;
   return std::nullopt;
+}
+
+std::string TextsValue::type() const {
+  return fmt::format("a list of at most {} texts", most);
+}
+
+MaybeProblem TextsValue::read(const toml::node& node, std::vector<std::string>& value) const {
+  const auto* array = node.as_array();
+  if (!array || array->size() > most) return wrong_value(type(), node);
+  std::vector<std::string> texts(array->size());
+  for (std::size_t i = 0; i < texts.size(); ++i)
+    if (auto problem = TextValue{}.read((*array)[i], texts[i])) return problem;
+  value = std::move(texts);
+  return std::nullopt;
+}
+
+std::string TextsValue::write(const std::vector<std::string>& value) const {
+  std::string out;
+  for (const auto& text : value) out += (out.empty() ? "" : ", ") + toml_string(text);
+  return "[" + out + "]";
 }
 
 MaybeProblem VectorValue::read(const toml::node& node, Vec3& value) const {

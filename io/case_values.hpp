@@ -61,6 +61,16 @@ struct TextValue {
   std::string write(const std::string& value) const { return toml_string(value); }
 };
 
+/// A list of texts.
+struct TextsValue {
+  static constexpr bool is_text = false;
+  std::size_t most = 1;  ///< texts
+
+  std::string type() const;
+  MaybeProblem read(const toml::node& node, std::vector<std::string>& value) const;
+  std::string write(const std::vector<std::string>& value) const;
+};
+
 /// Three finite numbers, [x, y, z].
 struct VectorValue {
   static constexpr bool is_text = false;

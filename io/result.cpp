@@ -25,6 +25,7 @@ Json json_of(const Result& r) {
   for (const auto& [name, d] : r.derivatives) {
     derivatives[name] = {{"value", d.value}, {"uncertainty", d.uncertainty}, {"method", d.method}};
     if (!d.parts.empty()) derivatives[name]["parts"] = json_of(d.parts);
+    if (!d.mesh_convergence.empty()) derivatives[name]["mesh_convergence"] = json_of(d.mesh_convergence);
   }
 
   const Vec3& center = r.reference.moment_center;
@@ -59,6 +60,7 @@ Json json_of(const Result& r) {
         {"steady_cpu_s", performance.steady_cpu_s},
         {"motion_cpu_s", performance.motion_cpu_s},
         {"linear_cpu_s", performance.linear_cpu_s},
+        {"coarser_meshes_cpu_s", performance.coarser_meshes_cpu_s},
         {"checkpoints", performance.checkpoints},
         {"checkpoint_wall_s", performance.checkpoint_wall_s},
         {"checkpoint_cpu_s", performance.checkpoint_cpu_s},

@@ -19,8 +19,9 @@ using NamedValues = std::vector<std::pair<std::string, Real>>;
 struct DerivativeResult {
   Real value = 0;
   Real uncertainty = 0;
-  std::string method;      ///< "harmonic fit of plunge at k = 0.01", ...
-  NamedValues parts = {};  ///< of the uncertainty, by source; may be empty
+  std::string method;                 ///< "harmonic fit of plunge at k = 0.01", ...
+  NamedValues parts = {};             ///< of the uncertainty, by source; may be empty
+  NamedValues mesh_convergence = {};  ///< what refinement of the mesh says; may be empty
 };
 
 /// Not a number: a figure that was not measured; null in the file.
@@ -30,10 +31,11 @@ struct PerformanceResult {
   Real wall_s = not_measured;
   Real cpu_s = not_measured;  ///< over all ranks
   Real steady_wall_s = not_measured,
-       steady_cpu_s = not_measured;  ///< of these, the march to the steady state
-  Real motion_cpu_s = not_measured;  ///< of these, the march along the motion
-  Real linear_cpu_s = not_measured;  ///< of these, the linear solves for the derivatives
-  std::int64_t checkpoints = 0;      ///< written
+       steady_cpu_s = not_measured;          ///< of these, the march to the steady state
+  Real motion_cpu_s = not_measured;          ///< of these, the march along the motion
+  Real linear_cpu_s = not_measured;          ///< of these, the linear solves for the derivatives
+  Real coarser_meshes_cpu_s = not_measured;  ///< of these, steady states and linear solves on coarser meshes
+  std::int64_t checkpoints = 0;              ///< written
   Real checkpoint_wall_s = not_measured,
        checkpoint_cpu_s = not_measured;  ///< of wall_s and cpu_s, the writing of all these checkpoints
   Real restart_wall_s = not_measured,

@@ -40,12 +40,15 @@ std::vector<MeshLevel> finest_first(std::span<const MeshLevel> levels) {
 
 }  // namespace
 
+Real refinement_ratio(GlobalIndex fine_cells, GlobalIndex coarse_cells, int dimensions) {
+  return std::pow(static_cast<Real>(fine_cells) / static_cast<Real>(coarse_cells), 1.0 / dimensions);
+}
+
 MeshConvergence mesh_convergence(std::span<const MeshLevel> levels, int dimensions, Real formal_order) {
   const auto level = finest_first(levels);
   const auto ratio = [&](std::size_t i) {
-    const Real r =
-        std::pow(static_cast<Real>(level[i].cells) / static_cast<Real>(level[i + 1].cells), 1.0 / dimensions);
-    if (r < 1.05)
+    const Real r = refinement_ratio(level[i].cells, level[i + 1].cells, dimensions);
+    if (r < least_refinement_ratio)
       throw InputError("", 0,
                        fmt::format("mesh convergence: {} and {} cells differ too little", level[i + 1].cells,
                                    level[i].cells),
@@ -73,6 +76,18 @@ MeshConvergence mesh_convergence(std::span<const MeshLevel> levels, int dimensio
   if (converging) result.extrapolated -= e21 * gain;
   result.fine.uncertainty = result.safety_factor * change * gain;
   return result;
+}
+
+DerivativeSetOf<MeshConvergence> mesh_convergence(std::span<const MeshDerivatives> levels) {
+  DerivativeSetOf<MeshConvergence> out;
+  for (const auto& [variable, column] : levels.front().derivatives)
+    for (int i = 0; i < column.size(); ++i) {
+      std::vector<MeshLevel> entry;
+      for (const auto& level : levels)
+        entry.push_back({level.cells, level.derivatives.at(variable)[i].value});
+      out[variable][i] = mesh_convergence(entry);
+    }
+  return out;
 }
 
 }  // namespace alphadot

@@ -3,6 +3,7 @@
 
 #include <span>
 
+#include "analysis/derivatives.hpp"
 #include "analysis/estimate.hpp"
 
 namespace alphadot {
@@ -21,15 +22,29 @@ struct MeshConvergence {
   bool observed = false;   ///< the order was observed: three levels that converge monotonically
 };
 
+/// Ratio of the spacings of two meshes, h being proportional to cells^(-1/dimensions).
+Real refinement_ratio(GlobalIndex fine_cells, GlobalIndex coarse_cells, int dimensions = 3);
+/// The least that tells more than noise.
+inline constexpr Real least_refinement_ratio = 1.05;
+
 /// Richardson extrapolation and grid convergence index (Roache; Celik et al., J. Fluids Eng. 130, 2008,
-/// 078001) of two or three levels in any order; h is proportional to cells^(-1/dimensions).
+/// 078001) of two or three levels in any order.
 ///
 /// Three levels that converge monotonically give the observed order p; above the scheme's `formal_order` it
 /// is cut to that, and below two fifths of it the levels are not in the asymptotic range, which the safety
 /// factor answers. Otherwise p is the formal order, the safety factor 3, and the largest difference of the
 /// levels takes the place of that of the two finest.  GCI = F |f2 - f1| / (r^p - 1). Throws InputError for
-/// another number of levels or a ratio of h below 1.05: differences would then be noise.
+/// another number of levels or a ratio of h below least_refinement_ratio.
 MeshConvergence mesh_convergence(std::span<const MeshLevel> levels, int dimensions = 3,
                                  Real formal_order = 2);
+
+/// All derivatives on one mesh.
+struct MeshDerivatives {
+  GlobalIndex cells = 0;
+  DerivativeSet derivatives;
+};
+
+/// The same for every entry of two or three such sets, which have the same columns.
+DerivativeSetOf<MeshConvergence> mesh_convergence(std::span<const MeshDerivatives> levels);
 
 }  // namespace alphadot

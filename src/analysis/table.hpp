@@ -11,7 +11,7 @@
 
 namespace alphadot {
 
-/// One source of uncertainty, "linear" or "limiter", and its share in that of every entry.
+/// One source of uncertainty, "linear", "limiter" or "mesh", and its share in that of every entry.
 struct UncertaintyPart {
   std::string source;
   DerivativeSetOf<Real> share;

@@ -41,10 +41,11 @@ Case check_belongs(const RestartPoint& point, const Setup& setup) {
 
 }  // namespace
 
-Checkpoints::Checkpoints(const Setup& setup, std::string folder, const Timer& since_start,
-                         const Communicator& comm)
+Checkpoints::Checkpoints(const Setup& setup, std::string folder, std::string stop_folder,
+                         const Timer& since_start, const Communicator& comm)
     : setup_(setup),
       folder_(std::move(folder)),
+      stop_folder_(std::move(stop_folder)),
       since_start_(since_start),
       comm_(comm),
       file_(setup.domain, comm),
@@ -96,7 +97,7 @@ bool Checkpoints::found_stop_file() {
   if (last_look_ >= 0 && now - last_look_ < seconds_between_looks) return false;
   last_look_ = now;
   std::error_code error;
-  return fs::remove(fs::path(folder_) / "stop", error);  // so that it does not stop the restarted run
+  return fs::remove(fs::path(stop_folder_) / "stop", error);  // so that it does not stop the restarted run
 }
 
 bool Checkpoints::wall_limit_is_near() const {

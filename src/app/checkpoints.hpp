@@ -21,8 +21,10 @@ struct Wish {
 
 class Checkpoints {
  public:
-  /// Collective. `since_start` is the run's clock. The references must outlive the object.
-  Checkpoints(const Setup& setup, std::string folder, const Timer& since_start, const Communicator& comm);
+  /// Collective. A file "stop" in `stop_folder` ends the run; `since_start` is its clock. The references must
+  /// outlive the object.
+  Checkpoints(const Setup& setup, std::string folder, std::string stop_folder, const Timer& since_start,
+              const Communicator& comm);
 
   /// Chooses where the run begins: `file`, or with an empty name the newest whole checkpoint of the folder;
   /// without any there, the beginning. Collective. Throws InputError on every rank when there is no whole
@@ -58,7 +60,7 @@ class Checkpoints {
   bool wall_limit_is_near() const;
 
   const Setup& setup_;
-  std::string folder_;
+  std::string folder_, stop_folder_;
   const Timer& since_start_;
   const Communicator& comm_;
   CheckpointFile file_;

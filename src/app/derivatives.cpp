@@ -2,160 +2,32 @@
 // state.
 #include <fmt/format.h>
 
-#include <atomic>
-#include <cmath>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "analysis/avl.hpp"
 #include "analysis/axes.hpp"
-#include "analysis/derivatives.hpp"
 #include "analysis/jsbsim.hpp"
 #include "analysis/moment_center.hpp"
 #include "analysis/table.hpp"
+#include "app/coarser_meshes.hpp"
 #include "app/flow_case.hpp"
+#include "app/linear_derivatives.hpp"
 #include "app/loads.hpp"
-#include "app/responses.hpp"
 #include "app/stop.hpp"
-#include "app/watchdog.hpp"
 #include "core/error.hpp"
 #include "core/log.hpp"
 #include "core/timer.hpp"
 #include "io/case_words.hpp"
 #include "io/files.hpp"
-#include "solver/sensitivity.hpp"
 
 namespace alphadot {
 
 namespace {
-
-/// Change of wind and grid motion per unit of a flight variable: rad for angles, rad per unit time for rates.
-/// The body moves across the wind, which itself stays: with alpha the body sinks at V dalpha, normal to the
-/// flight path.
-ConditionsChange change_of(Variable variable, const FreestreamSettings& stream) {
-  const Real a = stream.alpha * radians_per_degree, b = stream.beta * radians_per_degree;
-  const Real speed = stream.mach;
-  switch (variable) {
-    case Variable::alpha:
-      return {{}, -speed * std::cos(b) * Vec3{-std::sin(a), 0, std::cos(a)}, {}};
-    case Variable::beta:
-      return {{}, speed * Vec3{std::cos(a) * std::sin(b), std::cos(b), std::sin(a) * std::sin(b)}, {}};
-    case Variable::p:
-      return {{}, {}, {-1, 0, 0}};
-    case Variable::q:
-      return {{}, {}, {0, 1, 0}};
-    case Variable::r:
-      return {{}, {}, {0, 0, -1}};
-    default:
-      return {};
-  }
-}
-
-/// The power of time in a variable's unit.
-int time_derivatives(Variable variable) {
-  using enum Variable;
-  if (variable == alpha || variable == beta) return 0;
-  return variable == alphaddot || variable == betaddot ? 2 : 1;
-}
-
-/// The problem of one variable. Those of the rates of the angles need the responses to the angles.
-SensitivityProblem problem_of(ResponseKey key, const FlowCase& flow, const Responses& responses) {
-  using enum Variable;
-  const auto [variable, limiter_held] = key;
-  SensitivityProblem out{std::string(name(variable)), change_of(variable, flow.settings().freestream), {}};
-  if (variable == alphadot) out.rate = responses.at({alpha, limiter_held}).field;
-  if (variable == betadot) out.rate = responses.at({beta, limiter_held}).field;
-  if (variable == alphaddot) out.rate = responses.at({alphadot, limiter_held}).field;
-  if (variable == betaddot) out.rate = responses.at({betadot, limiter_held}).field;
-  return out;
-}
-
-/// Variables that are solved for together, in this order: angles and rotations, then the rates of the angles,
-/// then their rates.
-std::vector<std::vector<Variable>> groups_of(const Case& settings) {
-  using enum Variable;
-  std::vector<std::vector<Variable>> out;
-  if (settings.reference.half_model)
-    out = {{alpha, q}, {alphadot}, {alphaddot}};
-  else
-    out = {{alpha, beta, q}, {p, r}, {alphadot, betadot}, {alphaddot, betaddot}};
-  if (!settings.derivatives.second_order) out.pop_back();
-  return out;
-}
-
-void add_column(DerivativeSet& derivatives, Variable variable, const Sensitivity& solution,
-                const Case& settings) {
-  const Real rate_scale =
-      std::pow(2 * settings.freestream.mach / settings.reference.length, time_derivatives(variable));
-  const auto values = coefficients(rate_scale * solution.total, settings);
-  const auto errors = coefficients(rate_scale * solution.total_error, settings);
-  CoefficientsOf<Estimate> column;
-  for (int i = 0; i < Coefficients::size(); ++i) column[i] = {values[i], std::abs(errors[i])};
-  derivatives[variable] = column;
-  spdlog::info("{:9} {:3} iterations, linear residual {:.1e}", name(variable), solution.iterations,
-               solution.relative_residual);
-}
-
-/// Solves for all variables but those that the checkpoint has, with a checkpoint after each group. The
-/// uncertainty is that of the linear solves. Nothing when the run was stopped.
-DerivativeSet solve_all(FlowCase& flow, SensitivitySolver& solver, Responses& responses, bool limiter_held) {
-  if (limiter_held) {
-    spdlog::info("once more with the limiter's factors held");
-    solver.hold_limiter();
-  }
-  DerivativeSet out;
-  for (const auto& group : groups_of(flow.settings())) {
-    if (!responses.has({group.front(), limiter_held})) {
-      std::vector<SensitivityProblem> problems;
-      for (const auto variable : group)
-        problems.push_back(problem_of({variable, limiter_held}, flow, responses));
-      auto solved = solver.solve(problems);
-      if (solved.empty()) return {};
-      for (std::size_t i = 0; i < group.size(); ++i)
-        responses.add({group[i], limiter_held}, std::move(solved[i]));
-      responses.save();
-    }
-    for (const auto variable : group)
-      add_column(out, variable, responses.at({variable, limiter_held}), flow.settings());
-  }
-  return out;
-}
-
-/// Derivatives, and the parts that their uncertainties are the sums of.
-struct Estimated {
-  DerivativeSet derivatives;
-  std::vector<UncertaintyPart> parts;
-};
-
-/// No derivatives when the run was stopped.
-Estimated estimate_all(FlowCase& flow) {
-  const Case& settings = flow.settings();
-  Responses responses(flow);
-  std::atomic<GlobalIndex> linear_iterations{0};
-  const Watchdog watchdog(
-      settings.checkpoint.watchdog_minutes, [&] { return linear_iterations.load(); }, flow.communicator());
-  const auto go_on = [&] {
-    ++linear_iterations;
-    return !flow.checkpoints().wish(false).stop;
-  };
-  SensitivitySolver solver(flow.iteration(), flow.conditions(), settings.derivatives, go_on);
-  Estimated out{solve_all(flow, solver, responses, false), {}};
-  if (out.derivatives.empty()) return {};
-  auto& linear = out.parts.emplace_back("linear");
-  for (const auto& [variable, column] : out.derivatives)
-    for (int i = 0; i < column.size(); ++i) linear.share[variable][i] = column[i].uncertainty;
-  if (!settings.derivatives.limiter_uncertainty) return out;
-
-  const DerivativeSet held = solve_all(flow, solver, responses, true);
-  if (held.empty()) return {};
-  auto& limiter = out.parts.emplace_back("limiter");
-  for (auto& [variable, column] : out.derivatives)
-    for (int i = 0; i < column.size(); ++i) {
-      const Real share = std::abs(held.at(variable)[i].value - column[i].value);
-      limiter.share[variable][i] = share;
-      column[i].uncertainty += share;
-    }
-  return out;
-}
 
 /// Derivatives are about a steady state, which a checkpoint made in a motion no longer has.
 void check_restart(const FlowCase& flow) {
@@ -207,22 +79,39 @@ void print(const NamedValues& longitudinal) {
   for (const auto& [name, value] : longitudinal) fmt::print("{:<26} {:.5g}\n", name, value);
 }
 
-}  // namespace
+/// What refinement says about the derivatives that a result has.
+void add(const DerivativeSetOf<MeshConvergence>& convergence, Result& result) {
+  for (const auto& [variable, column] : convergence)
+    for (int i = 0; i < column.size(); ++i) {
+      const auto found =
+          result.derivatives.find(derivative_name(coefficient_names[static_cast<std::size_t>(i)], variable));
+      if (found == result.derivatives.end()) continue;
+      const MeshConvergence& entry = column[i];
+      found->second.mesh_convergence = {{"extrapolated", entry.extrapolated},
+                                        {"observed_order", entry.observed ? entry.order : not_measured},
+                                        {"safety_factor", entry.safety_factor}};
+    }
+}
 
-RunStatus derivatives_verb(const CaseArguments& arguments, const Communicator& comm) {
-  const SignalListener signals;
-  FlowCase flow(arguments, comm);
-  check_restart(flow);
-  flow.announce();
-  Estimated estimated;
+/// What came of a case: no derivatives when it was stopped or diverged.
+struct Outcome {
+  Result result;
+  DerivativeSet derivatives;
+  std::vector<TableRow> rows;
+};
+
+/// Marches to the steady state, solves for the derivatives and writes their tables.
+Outcome complete(FlowCase& flow, std::span<const MeshDerivatives> coarser) {
+  EstimatedDerivatives estimated;
+  DerivativeSetOf<MeshConvergence> convergence;
   RunStatus status = RunStatus::error;
   Real linear_cpu = not_measured;
   try {
     status = flow.march();
     const Timer timer;
     if (status != RunStatus::interrupted) {
-      flow.progress().begin_linear_solves();
-      estimated = estimate_all(flow);
+      flow.progress().begin_phase("linear solves");
+      estimated = linear_derivatives(flow);
     }
     if (status != RunStatus::interrupted && estimated.derivatives.empty()) {
       status = RunStatus::interrupted;
@@ -233,21 +122,85 @@ RunStatus derivatives_verb(const CaseArguments& arguments, const Communicator& c
     status = RunStatus::diverged;
     flow.report_divergence(error);
   }
+  if (!estimated.derivatives.empty() && !coarser.empty())
+    convergence = add_mesh_part(estimated, flow.setup().mesh.cells, coarser);
 
-  const auto& [derivatives, parts] = estimated;
-  const auto rows = rows_of(
-      derivatives, fmt::format("linear solve, k -> 0, {}", word_of(flow.settings().derivatives.method)),
-      Axes::body, parts);
+  const auto rows =
+      rows_of(estimated.derivatives,
+              fmt::format("linear solve, k -> 0, {}", word_of(flow.settings().derivatives.method)),
+              Axes::body, estimated.parts);
   Result result = flow.result(status, rows);
-  result.performance.linear_cpu_s = comm.sum(linear_cpu);
-  if (!rows.empty()) result.longitudinal = longitudinal_of(flow.settings(), derivatives);
-  if (!rows.empty()) comm.on_root([&] { write_tables(flow, estimated.derivatives, rows); });
+  add(convergence, result);
+  result.performance.linear_cpu_s = flow.communicator().sum(linear_cpu);
+  if (!rows.empty()) {
+    result.longitudinal = longitudinal_of(flow.settings(), estimated.derivatives);
+    flow.communicator().on_root([&] { write_tables(flow, estimated.derivatives, rows); });
+  }
+  return {std::move(result), std::move(estimated.derivatives), rows};
+}
+
+void say_which(std::size_t number, std::size_t of, const FlowCase& flow) {
+  if (of > 1)
+    spdlog::info("mesh {} of {}: {}, {} cells, in {}", number, of, flow.setup().mesh.file,
+                 flow.setup().mesh.cells, flow.folder());
+}
+
+/// Completes the cases on coarser meshes one after the other and lets go of them. Nothing when one was
+/// stopped or diverged: the result of the finest then says so.
+std::optional<std::vector<MeshDerivatives>> complete_coarser(FlowCase& finest,
+                                                             std::vector<std::unique_ptr<FlowCase>> levels,
+                                                             RunStatus& status) {
+  std::vector<MeshDerivatives> out;
+  for (std::size_t i = 0; i < levels.size(); ++i) {
+    const auto level = std::move(levels[i]);
+    level->announce();
+    say_which(i + 2, levels.size() + 1, *level);
+    finest.progress().begin_phase(fmt::format("mesh {} of {}", i + 2, levels.size() + 1));
+    auto [result, derivatives, rows] = complete(*level, {});
+    level->write(result);
+    if (derivatives.empty()) {
+      status = result.status;
+      const std::string message = fmt::format("on {}: {}", level->setup().mesh.file, result.message);
+      finest.announce(status, message);
+      spdlog::info("{} {}", to_string(status), message);
+      return std::nullopt;
+    }
+    out.push_back({level->setup().mesh.cells, std::move(derivatives)});
+  }
+  return out;
+}
+
+}  // namespace
+
+RunStatus derivatives_verb(const CaseArguments& arguments, const Communicator& comm) {
+  const SignalListener signals;
+  FlowCase flow(arguments, comm);
+  check_restart(flow);
+  flow.announce();
+  auto levels = coarser_cases(arguments, flow);
+  for (const auto& level : levels) check_restart(*level);
+  const std::size_t meshes = levels.size() + 1;
+
+  const Timer timer;
+  RunStatus status = RunStatus::completed;
+  const auto coarser = complete_coarser(flow, std::move(levels), status);
+  if (!coarser) return status;
+  const Real coarser_cpu = comm.sum(timer.cpu());
+
+  say_which(1, meshes, flow);
+  auto [result, derivatives, rows] = complete(flow, *coarser);
+  auto& performance = result.performance;
+  if (meshes > 1) {
+    performance.coarser_meshes_cpu_s = coarser_cpu;
+    performance.core_us_per_cell_iteration *= 1 - coarser_cpu / performance.cpu_s;
+  }
   flow.write(result);
   flow.print(result, rows);
   print(result.longitudinal);
-  spdlog::info("of these, steady state {:.1f} s of processor, linear solves {:.1f} s",
-               result.performance.steady_cpu_s, result.performance.linear_cpu_s);
-  return status;
+  spdlog::info("of these, steady state {:.1f} s of processor, linear solves {:.1f} s{}",
+               performance.steady_cpu_s, performance.linear_cpu_s,
+               meshes > 1 ? fmt::format(", coarser meshes {:.1f} s", coarser_cpu) : "");
+  return result.status;
 }
 
 }  // namespace alphadot

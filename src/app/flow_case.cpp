@@ -68,7 +68,8 @@ FlowCase::FlowCase(const CaseArguments& arguments, const Communicator& comm)
     : comm_(comm),
       setup_(prepare(arguments, comm)),
       folder_(run_folder(arguments, setup_.settings)),
-      checkpoints_(setup_, folder_, timer_, comm),
+      checkpoints_(setup_, folder_, arguments.stop_folder.empty() ? folder_ : arguments.stop_folder, timer_,
+                   comm),
       progress_(setup_.settings, folder_, comm.is_root()),
       discretization_(setup_.domain, setup_.patch_kinds, setup_.settings.space,
                       setup_.settings.freestream.gamma),
@@ -300,9 +301,9 @@ Result FlowCase::result(RunStatus status, std::span<const TableRow> derivatives)
   return out;
 }
 
-void FlowCase::announce() const {
-  Result out = result(RunStatus::interrupted);
-  out.message = "the run has not ended, or was killed";
+void FlowCase::announce(RunStatus status, std::string message) const {
+  Result out = result(status);
+  out.message = std::move(message);
   out.forces.clear();
   comm_.on_root([&] { write_result(folder_ + "/result.json", out); });
 }

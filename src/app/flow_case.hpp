@@ -61,8 +61,9 @@ class FlowCase {
 
   /// Everything in result.json, with the derivatives of a table. Collective.
   Result result(RunStatus status, std::span<const TableRow> derivatives = {}) const;
-  /// Writes a result.json that says interrupted: what stands there when the run is killed. Collective.
-  void announce() const;
+  /// Writes a result.json without results: by default what stands there when the run is killed. Collective.
+  void announce(RunStatus status = RunStatus::interrupted,
+                std::string message = "the run has not ended, or was killed") const;
   /// Writes pictures (but when interrupted), resolved case and result.json. Collective.
   void write(const Result& result) const;
   /// What the run has found, on standard output (unless quiet), and how it ended, in the log.

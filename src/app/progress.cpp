@@ -150,9 +150,9 @@ void Progress::show(const StepReport& step, const History& so_far) {
              left, rows);
 }
 
-void Progress::begin_linear_solves() {
+void Progress::begin_phase(const std::string& name) {
   begin(0);
-  if (is_root_) write_json("linear solves", {}, not_measured, {});
+  if (is_root_) write_json(name, {}, not_measured, {});
 }
 
 void Progress::write_json(const std::string& phase, const NamedValues& values, Real seconds_left,

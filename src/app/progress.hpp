@@ -35,7 +35,8 @@ class Progress {
   /// To be called when the step is in the history.
   void show(const StepReport& step, const History& so_far);
 
-  void begin_linear_solves();
+  /// A phase that shows nothing but its name: linear solves, work on another mesh.
+  void begin_phase(const std::string& name);
 
  private:
   bool is_due();

@@ -92,7 +92,7 @@ Setup load_setup(const Case& settings, const Communicator& comm) {
     distribute_in_parallel(out, comm);
   else
     distribute_from_root(out, comm);
-  const Real peak = peak_resident_bytes() - before;
+  const Real peak = std::max(peak_resident_bytes() - before, Real{0});
   out.memory = {comm.sum(static_cast<Real>(out.domain.bytes())), comm.sum(peak), comm.max(peak)};
   out.mesh.hash = comm.broadcast(out.mesh.hash);
   out.mesh.cells = out.domain.global_cells;

@@ -15,6 +15,7 @@ struct CaseArguments {
   std::string case_file;
   std::vector<std::string> overrides;  ///< "key=value"
   std::string folder;                  ///< of the run; empty: as the case says
+  std::string stop_folder;             ///< where a file "stop" ends it; empty: in its folder
   /// Go on from this checkpoint; empty: from the newest of the run's folder.
   std::optional<std::string> restart;
 };

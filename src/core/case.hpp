@@ -91,6 +91,7 @@ struct DerivativeSettings {
   int max_iterations = 300;
   bool second_order = false;         ///< also with respect to the second time derivatives of alpha and beta
   bool limiter_uncertainty = false;  ///< solve once more with the limiter's factors held
+  std::vector<std::string> coarser_meshes = {};  ///< at most two, the finer first; as mesh.file
 };
 
 struct OutputSettings {

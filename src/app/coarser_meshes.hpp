@@ -1,0 +1,23 @@
+// The same case on coarser meshes, which tell what the mesh does to its derivatives.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "analysis/mesh_convergence.hpp"
+#include "app/flow_case.hpp"
+#include "app/linear_derivatives.hpp"
+
+namespace alphadot {
+
+/// The cases of the key derivatives.coarser_meshes, in folders "mesh_2" and "mesh_3" below that of the
+/// finest, where a restart goes on as well. Collective. Throws InputError that names the key when a mesh
+/// cannot be read, has other patches or is not coarser than the one before.
+std::vector<std::unique_ptr<FlowCase>> coarser_cases(const CaseArguments& arguments, const FlowCase& finest);
+
+/// Adds the part "mesh" to the uncertainties of the finest mesh: its grid convergence index.
+DerivativeSetOf<MeshConvergence> add_mesh_part(EstimatedDerivatives& finest, GlobalIndex cells,
+                                               std::span<const MeshDerivatives> coarser);
+
+}  // namespace alphadot
