@@ -4,6 +4,8 @@
 
 #include <array>
 
+#include "analysis/moment_center.hpp"
+
 namespace alphadot {
 
 namespace {
@@ -61,6 +63,15 @@ std::string function(const std::string& name, int coefficient, const std::string
       name, scale, factors, value);
 }
 
+/// Where the normal force that goes with alpha acts.
+std::string neutral_point_text(const FlightPoint& point) {
+  const auto found = point.derivatives.find(Variable::alpha);
+  if (found == point.derivatives.end()) return "";
+  const auto margin = static_margin(found->second.CN, found->second.Cm);
+  return fmt::format("\n       Neutral point at x = {:.6g}.",
+                     point.reference.moment_center.x + point.reference.length * margin.value);
+}
+
 }  // namespace
 
 std::string jsbsim_aerodynamics(const FlightPoint& point) {
@@ -72,9 +83,9 @@ std::string jsbsim_aerodynamics(const FlightPoint& point) {
       "       Needs in the vehicle's metrics, in the mesh's unit: chord {:g}, wingarea {:g}, AERORP at "
       "({:g}, {:g}, "
       "{:g});\n"
-      "       the centre of gravity should be there too, for the rates are about it. -->\n",
+      "       the centre of gravity should be there too, for the rates are about it.{} -->\n",
       point.freestream.mach, point.freestream.alpha, point.freestream.beta, reference.length, reference.area,
-      center.x, center.y, center.z);
+      center.x, center.y, center.z, neutral_point_text(point));
   for (int c = 0; c < Coefficients::size(); ++c) {
     const std::string coefficient(coefficient_names[static_cast<std::size_t>(c)]);
     out += fmt::format("  <axis name=\"{}\">\n", axis_names[static_cast<std::size_t>(c)]);

@@ -38,7 +38,7 @@ void check_restart(const FlowCase& flow) {
         "name that of the steady state with --restart FILE, or begin in another folder with --out DIR");
 }
 
-/// The same numbers for people, spreadsheets, AVL's readers and JSBSim.
+/// The same numbers for spreadsheets, AVL's readers and JSBSim.
 void write_tables(const FlowCase& flow, const DerivativeSet& derivatives, const std::vector<TableRow>& rows) {
   const Case& settings = flow.settings();
   const FlightPoint point{settings.title, settings.reference, settings.freestream,
@@ -54,16 +54,31 @@ void write_tables(const FlowCase& flow, const DerivativeSet& derivatives, const 
   replace_file_with(stem + ".jsbsim.xml", jsbsim_aerodynamics(point));
 }
 
-/// Where the configuration balances, about the moment centre, and up to which reduced frequency its
-/// derivatives describe a plunge to 1 %.
-NamedValues longitudinal_of(const Case& settings, const DerivativeSet& derivatives) {
-  const auto& alpha = derivatives.at(Variable::alpha);
-  const auto margin = static_margin(alpha.CN, alpha.Cm);
+/// Where the configuration balances: static margin in reference lengths and neutral point. Each part of the
+/// uncertainty is that of the derivatives' same part.
+std::vector<TableRow> balance_rows(const Case& settings, const EstimatedDerivatives& estimated) {
+  const auto& alpha = estimated.derivatives.at(Variable::alpha);
+  TableRow margin{"static_margin", static_margin(alpha.CN, alpha.Cm), "-Cm_alpha / CN_alpha, in lengths"};
+  for (const auto& [source, share] : estimated.parts) {
+    const auto& of_alpha = share.at(Variable::alpha);
+    const auto part = static_margin({alpha.CN.value, of_alpha.CN}, {alpha.Cm.value, of_alpha.Cm}).uncertainty;
+    margin.parts.emplace_back(source, part);
+  }
   const Real length = settings.reference.length;
-  NamedValues out{{"static_margin", margin.value},
-                  {"static_margin_uncertainty", margin.uncertainty},
-                  {"neutral_point_x", settings.reference.moment_center.x + margin.value * length},
-                  {"neutral_point_uncertainty", margin.uncertainty * length}};
+  TableRow point{"neutral_point_x", length * margin.value, "centre + margin, in units of the mesh",
+                 margin.parts};
+  point.value.value += settings.reference.moment_center.x;
+  for (auto& [source, part] : point.parts) part *= length;
+  return {margin, point};
+}
+
+/// The balance, and up to which reduced frequency the derivatives describe a plunge to 1 %.
+NamedValues longitudinal_of(std::span<const TableRow> balance, const DerivativeSet& derivatives) {
+  NamedValues out{{"static_margin", balance[0].value.value},
+                  {"static_margin_uncertainty", balance[0].value.uncertainty},
+                  {"neutral_point_x", balance[1].value.value},
+                  {"neutral_point_uncertainty", balance[1].value.uncertainty}};
+  const auto& alpha = derivatives.at(Variable::alpha);
   if (const auto second = derivatives.find(Variable::alphaddot); second != derivatives.end()) {
     constexpr Real share = 0.01;
     out.emplace_back("quasi_steady_k_of_CN",
@@ -74,9 +89,11 @@ NamedValues longitudinal_of(const Case& settings, const DerivativeSet& derivativ
   return out;
 }
 
-void print(const NamedValues& longitudinal) {
+/// The limits of quasi-steady flight, which are no rows of a table.
+void print_limits(const NamedValues& longitudinal) {
   if (!spdlog::should_log(spdlog::level::info)) return;
-  for (const auto& [name, value] : longitudinal) fmt::print("{:<26} {:.5g}\n", name, value);
+  for (const auto& [name, value] : longitudinal)
+    if (name.starts_with("quasi_steady")) fmt::print("{} {:.5g}\n", name, value);
 }
 
 /// What refinement says about the derivatives that a result has.
@@ -125,18 +142,19 @@ Outcome complete(FlowCase& flow, std::span<const MeshDerivatives> coarser) {
   if (!estimated.derivatives.empty() && !coarser.empty())
     convergence = add_mesh_part(estimated, flow.setup().mesh.cells, coarser);
 
-  const auto rows =
-      rows_of(estimated.derivatives,
-              fmt::format("linear solve, k -> 0, {}", word_of(flow.settings().derivatives.method)),
-              Axes::body, estimated.parts);
+  auto rows = rows_of(estimated.derivatives,
+                      fmt::format("linear solve, k -> 0, {}", word_of(flow.settings().derivatives.method)),
+                      Axes::body, estimated.parts);
   Result result = flow.result(status, rows);
   add(convergence, result);
   result.performance.linear_cpu_s = flow.communicator().sum(linear_cpu);
   if (!rows.empty()) {
-    result.longitudinal = longitudinal_of(flow.settings(), estimated.derivatives);
+    const auto balance = balance_rows(flow.settings(), estimated);
+    result.longitudinal = longitudinal_of(balance, estimated.derivatives);
+    rows.insert(rows.end(), balance.begin(), balance.end());
     flow.communicator().on_root([&] { write_tables(flow, estimated.derivatives, rows); });
   }
-  return {std::move(result), std::move(estimated.derivatives), rows};
+  return {std::move(result), std::move(estimated.derivatives), std::move(rows)};
 }
 
 void say_which(std::size_t number, std::size_t of, const FlowCase& flow) {
@@ -196,7 +214,7 @@ RunStatus derivatives_verb(const CaseArguments& arguments, const Communicator& c
   }
   flow.write(result);
   flow.print(result, rows);
-  print(result.longitudinal);
+  print_limits(result.longitudinal);
   spdlog::info("of these, steady state {:.1f} s of processor, linear solves {:.1f} s{}",
                performance.steady_cpu_s, performance.linear_cpu_s,
                meshes > 1 ? fmt::format(", coarser meshes {:.1f} s", coarser_cpu) : "");

@@ -200,6 +200,11 @@ TEST(Jsbsim, FunctionsGiveTheLinearModel) {
   EXPECT_FALSE(contains(xml, "q_plus_alphadot")) << "would count the same damping twice";
 }
 
+// Cm_alpha 10.5 with CN_alpha 10.3 about 5.5, length 2: 5.5 - 2 * 10.5 / 10.3.
+TEST(Jsbsim, SaysWhereTheNeutralPointIs) {
+  EXPECT_TRUE(contains(jsbsim_aerodynamics(example()), "Neutral point at x = 3.46117."));
+}
+
 // Every coefficient sits on JSBSim's axis of the same sense, and the elements close in order.
 TEST(Jsbsim, AxesAndNesting) {
   const std::string xml = jsbsim_aerodynamics(example());

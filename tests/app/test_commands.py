@@ -71,6 +71,11 @@ class Commands(unittest.TestCase):
         self.assertEqual(cost["restart_wall_s"], 0)
         self.assertRegex(result["provenance"]["version"], r"^\d+\.\d+\.\d+")
 
+    def table(self, folder: str) -> dict[str, dict[str, str]]:
+        """Rows of derivatives.csv by their names."""
+        with open(self.folder / folder / "derivatives.csv") as file:
+            return {row["name"]: row for row in csv.DictReader(line for line in file if not line.startswith("#"))}
+
     def assert_flat_plate(self, derivatives: dict) -> None:
         """The wall is the upper side of a plate at Mach 2, whose leading edge is the moment centre.
 
@@ -85,15 +90,29 @@ class Commands(unittest.TestCase):
             with self.subTest(name):
                 self.assertAlmostEqual(derivatives[name]["value"], value, delta=tolerance * abs(value))
 
+    def assert_balance(self, result: dict, rows: dict[str, dict[str, str]]) -> None:
+        """The load of a plate in incidence acts in its middle, half a length behind the moment centre at x = 0."""
+        force, moment = (result["derivatives"][name] for name in ("CN_alpha", "Cm_alpha"))
+        margin = -moment["value"] / force["value"]
+        error = (moment["uncertainty"] + margin * force["uncertainty"]) / force["value"]
+        self.assertAlmostEqual(margin, 0.5, delta=0.005)
+        for name, in_result in (("static_margin", "static_margin"), ("neutral_point_x", "neutral_point")):
+            self.assertAlmostEqual(float(rows[name]["value"]), margin, delta=1e-12)
+            self.assertAlmostEqual(float(rows[name]["uncertainty"]), error, delta=1e-12)
+            self.assertAlmostEqual(float(rows[name]["linear"]), error, delta=1e-12)
+            self.assertEqual(result["longitudinal"][f"{in_result}_uncertainty"], float(rows[name]["uncertainty"]))
+
     def test_derivatives_of_the_plunge(self) -> None:
         self.assert_flat_plate(self.result()["derivatives"])
 
     def test_derivatives_by_linear_solves(self) -> None:
-        self.succeeded("derivatives", "case.toml", "--out", "linear", "--quiet")
+        printed = run(self.folder, "derivatives", "case.toml", "--out", "linear").out
         result = self.result("linear")
         self.assertEqual(result["status"], "converged")
         self.assert_flat_plate(result["derivatives"])
         self.assertLess(result["derivatives"]["CN_alphadot"]["uncertainty"], 1e-3)
+        self.assert_balance(result, self.table("linear"))
+        self.assertRegex(printed, r"\nneutral_point_x +0\.50\d+ ± \S+ +\S+ +centre \+ margin")
 
     def test_uncertainty_of_the_limiter(self) -> None:
         limiter_part = {}
@@ -105,10 +124,10 @@ class Commands(unittest.TestCase):
             for entry in found.values():
                 self.assertEqual(entry["parts"].keys(), {"linear", "limiter"})
                 self.assertAlmostEqual(sum(entry["parts"].values()), entry["uncertainty"], delta=1e-15)
-            with open(self.folder / limiter / "derivatives.csv") as file:
-                rows = {row["name"]: row for row in csv.DictReader(line for line in file if not line.startswith("#"))}
+            rows = self.table(limiter)
             limiter_part[limiter] = {name: float(row["limiter"]) for name, row in rows.items()}
-            self.assertEqual(limiter_part[limiter], {name: entry["parts"]["limiter"] for name, entry in found.items()})
+            for name, entry in found.items():
+                self.assertEqual(float(rows[name]["limiter"]), entry["parts"]["limiter"])
         self.assertGreater(limiter_part["venkatakrishnan"]["CN_alphadot"], 1e-4)
         self.assertEqual(set(limiter_part["none"].values()), {0.0})
 
