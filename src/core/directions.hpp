@@ -8,22 +8,22 @@
 
 namespace alphadot {
 
-/// How many numbers one vector register of the processor holds. A longer vector would go through memory at
+/// How many bytes one vector register of the processor holds. A longer vector would go through memory at
 /// every operation.
 #if defined(__AVX512F__)
-inline constexpr int register_lanes = 8;
+inline constexpr int register_bytes = 64;
 #elif defined(__AVX__)
-inline constexpr int register_lanes = 4;
+inline constexpr int register_bytes = 32;
 #else
-inline constexpr int register_lanes = 2;
+inline constexpr int register_bytes = 16;
 #endif
 
 /// N numbers, added and scaled element by element; with unused ones at the end up to whole registers.
-template <int N>
+template <int N, class S = Real>
 class Directions {
  public:
-  Real& operator[](int k) { return reinterpret_cast<Real*>(registers_)[k]; }
-  const Real& operator[](int k) const { return reinterpret_cast<const Real*>(registers_)[k]; }
+  S& operator[](int k) { return reinterpret_cast<S*>(registers_)[k]; }
+  const S& operator[](int k) const { return reinterpret_cast<const S*>(registers_)[k]; }
 
   constexpr Directions& operator+=(const Directions& b) {
     for (std::size_t i = 0; i < count; ++i) registers_[i] += b.registers_[i];
@@ -33,22 +33,22 @@ class Directions {
     for (std::size_t i = 0; i < count; ++i) registers_[i] -= b.registers_[i];
     return *this;
   }
-  constexpr Directions& operator*=(Real a) {
+  constexpr Directions& operator*=(S a) {
     for (std::size_t i = 0; i < count; ++i) registers_[i] *= a;
     return *this;
   }
   friend constexpr Directions operator+(Directions a, const Directions& b) { return a += b; }
   friend constexpr Directions operator-(Directions a, const Directions& b) { return a -= b; }
   friend constexpr Directions operator-(Directions a) { return a *= -1; }
-  friend constexpr Directions operator*(Real a, Directions b) { return b *= a; }
-  friend constexpr Directions operator*(Directions b, Real a) { return b *= a; }
+  friend constexpr Directions operator*(S a, Directions b) { return b *= a; }
+  friend constexpr Directions operator*(Directions b, S a) { return b *= a; }
 
  private:
+  static constexpr int size = static_cast<int>(sizeof(S));
   static constexpr int width =
-      std::min(register_lanes, static_cast<int>(std::bit_ceil(static_cast<unsigned>(N))));
+      std::min(register_bytes / size, static_cast<int>(std::bit_ceil(static_cast<unsigned>(N))));
   static constexpr std::size_t count = (N + width - 1) / width;
-  using Register
-      __attribute__((vector_size(width * static_cast<int>(sizeof(Real))), aligned(alignof(Real)))) = Real;
+  using Register __attribute__((vector_size(width * size), aligned(alignof(S)))) = S;
 
   Register registers_[count]{};
 };

@@ -8,14 +8,17 @@
 
 namespace alphadot {
 
-/// value + sum_k d[k] epsilon_k with epsilon_j epsilon_k = 0. Comparisons look at the value alone.
-template <int N>
+/// value + sum_k d[k] epsilon_k with epsilon_j epsilon_k = 0. Comparisons look at the value alone. A loop
+/// that lives on these numbers wants [[gnu::flatten]]: a call that is left in it passes them through memory,
+/// which costs more than the arithmetic.
+template <int N, class S = Real>
 struct Dual {
-  Real v{};
-  Directions<N> d{};
+  S v{};
+  Directions<N, S> d{};
 
   constexpr Dual() = default;
-  constexpr Dual(Real value) : v(value) {}  // a constant: implicit, so that formulas mix freely
+  constexpr Dual(Real value)
+      : v(static_cast<S>(value)) {}  // a constant: implicit, so that formulas mix freely
 
   constexpr Dual& operator+=(const Dual& b) {
     v += b.v;
@@ -32,26 +35,26 @@ struct Dual {
 
   friend constexpr Dual operator+(Dual a, const Dual& b) { return a += b; }
   friend constexpr Dual operator-(Dual a, const Dual& b) { return a -= b; }
-  friend constexpr Dual operator+(Dual a, Real b) {
+  friend constexpr Dual operator+(Dual a, S b) {
     a.v += b;
     return a;
   }
-  friend constexpr Dual operator+(Real a, const Dual& b) { return b + a; }
-  friend constexpr Dual operator-(Dual a, Real b) {
+  friend constexpr Dual operator+(S a, const Dual& b) { return b + a; }
+  friend constexpr Dual operator-(Dual a, S b) {
     a.v -= b;
     return a;
   }
-  friend constexpr Dual operator-(Real a, const Dual& b) { return {a - b.v, -b.d}; }
+  friend constexpr Dual operator-(S a, const Dual& b) { return {a - b.v, -b.d}; }
   friend constexpr Dual operator-(const Dual& a) { return {-a.v, -a.d}; }
-  friend constexpr Dual operator*(Real a, const Dual& b) { return {a * b.v, a * b.d}; }
-  friend constexpr Dual operator*(const Dual& a, Real b) { return b * a; }
+  friend constexpr Dual operator*(S a, const Dual& b) { return {a * b.v, a * b.d}; }
+  friend constexpr Dual operator*(const Dual& a, S b) { return b * a; }
   friend constexpr Dual operator*(const Dual& a, const Dual& b) { return {a.v * b.v, a.v * b.d + b.v * a.d}; }
-  friend constexpr Dual operator/(const Dual& a, Real b) { return a * (1 / b); }
+  friend constexpr Dual operator/(const Dual& a, S b) { return a * (1 / b); }
   friend constexpr Dual operator/(const Dual& a, const Dual& b) {
-    const Real inverse = 1 / b.v, quotient = a.v * inverse;
+    const S inverse = 1 / b.v, quotient = a.v * inverse;
     return {quotient, (a.d - quotient * b.d) * inverse};
   }
-  friend constexpr Dual operator/(Real a, const Dual& b) { return {a / b.v, -a / (b.v * b.v) * b.d}; }
+  friend constexpr Dual operator/(S a, const Dual& b) { return {a / b.v, -a / (b.v * b.v) * b.d}; }
 
   friend constexpr bool operator<(const Dual& a, const Dual& b) { return a.v < b.v; }
   friend constexpr bool operator>(const Dual& a, const Dual& b) { return a.v > b.v; }
@@ -59,25 +62,25 @@ struct Dual {
   friend constexpr bool operator>=(const Dual& a, const Dual& b) { return a.v >= b.v; }
 
   friend Dual sqrt(const Dual& a) {
-    const Real root = std::sqrt(a.v);
-    return {root, 0.5 / root * a.d};
+    const S root = std::sqrt(a.v);
+    return {root, S(0.5) / root * a.d};
   }
-  friend Dual pow(const Dual& a, Real exponent) {
-    const Real value = std::pow(a.v, exponent);
+  friend Dual pow(const Dual& a, S exponent) {
+    const S value = std::pow(a.v, exponent);
     return {value, exponent * value / a.v * a.d};
   }
   friend constexpr Dual abs(const Dual& a) { return a.v < 0 ? -a : a; }
 
  private:
-  constexpr Dual(Real value, const Directions<N>& derivatives) : v(value), d(derivatives) {}
+  constexpr Dual(S value, const Directions<N, S>& derivatives) : v(value), d(derivatives) {}
 };
 
 /// The value without its derivatives, of a plain number or a dual one.
 constexpr Real value_of(Real a) {
   return a;
 }
-template <int N>
-constexpr Real value_of(const Dual<N>& a) {
+template <int N, class S>
+constexpr S value_of(const Dual<N, S>& a) {
   return a.v;
 }
 

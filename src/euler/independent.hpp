@@ -7,18 +7,18 @@
 namespace alphadot {
 
 /// The state without derivatives.
-template <int N>
-Primitive<Dual<N>> constant(const Primitive<Real>& w) {
-  Primitive<Dual<N>> out;
+template <int N, class S = Real>
+Primitive<Dual<N, S>> constant(const Primitive<Real>& w) {
+  Primitive<Dual<N, S>> out;
   for (int i = 0; i < 5; ++i) out[i] = w[i];
   return out;
 }
 
-/// The state with its entries as the first five of N variables.
-template <int N>
-Primitive<Dual<N>> independent(const Primitive<Real>& w) {
-  auto out = constant<N>(w);
-  for (int i = 0; i < 5; ++i) out[i].d[i] = 1;
+/// The state with its entries as five of N variables, from number `first` on.
+template <int N, class S = Real>
+Primitive<Dual<N, S>> independent(const Primitive<Real>& w, int first = 0) {
+  auto out = constant<N, S>(w);
+  for (int i = 0; i < 5; ++i) out[i].d[first + i] = 1;
   return out;
 }
 

@@ -43,7 +43,7 @@ Five<Real> by_variable(const Conserved<Dual<N>>& flux, int variable) {
 
 }  // namespace
 
-void Linearisation::differentiate_faces(const Reconstruction<Real>& reconstruction) {
+[[gnu::flatten]] void Linearisation::differentiate_faces(const Reconstruction<Real>& reconstruction) {
   constexpr int speed_variable = 5;
   using Number = Dual<6>;
   const Subdomain& domain = discretization_.domain();

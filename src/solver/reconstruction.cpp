@@ -369,7 +369,7 @@ Gradient<T> Reconstruction<T>::unlimited(Index cell, const Arms& arms, const Pri
 
 template <class T>
 template <LimiterKind limiter>
-void Reconstruction<T>::fit_limited(const FlowField<T>& flow, Index begin, Index end) {
+[[gnu::flatten]] void Reconstruction<T>::fit_limited(const FlowField<T>& flow, Index begin, Index end) {
   const Subdomain& domain = discretization_.domain();
   for (Index cell = begin; cell < end; ++cell) {
     if (const Index ahead = cell + cells_ahead; ahead < end)

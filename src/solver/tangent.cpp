@@ -81,7 +81,7 @@ Primitive<Changes<N>> Tangent<N>::at_face(Index cell, const Vec3& face_center, R
 }
 
 template <int N>
-void Tangent<N>::interior_faces(Index begin, Index end) {
+[[gnu::flatten]] void Tangent<N>::interior_faces(Index begin, Index end) {
   const Subdomain& domain = discretization_.domain();
   for (Index face = begin; face < end; ++face) {
     if (const Index ahead = face + faces_ahead; ahead < end) {
