@@ -49,8 +49,7 @@ void Gmres::solve_one(const LinearSystem& system) {
   inside_->solve({&first, 1});
   space_.clear();
   const Real whole = comm_.sum(square(defect_));
-  for (Real left = whole; left > left_over * left_over * whole && !space_.is_full();
-       left = comm_.sum(square(defect_))) {
+  for (Real left = whole; left > left_over * left_over * whole && !space_.is_full();) {
     const int before = space_.size();
     direction_ = defect_;
     apply(direction_, product_);
@@ -59,7 +58,7 @@ void Gmres::solve_one(const LinearSystem& system) {
     for (auto& value : image_) value = Real{-1} * value;
     space_.add(direction_, image_, {});
     if (space_.size() == before) return;  // the space holds all that the preconditioner can find
-    space_.reduce(before, defect_, system.update, {});
+    left = space_.reduce(before, defect_, system.update, {});
   }
 }
 

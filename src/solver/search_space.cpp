@@ -19,6 +19,14 @@ void subtract(std::span<Primitive<Real>> from, Real factor, std::span<const Five
     for (int k = 0; k < 5; ++k) from[i][k] -= factor * static_cast<Real>(vector[i][k]);
 }
 
+/// Of a vector that has lost its parts along orthonormal ones (Pythagoras): its products with these, and at
+/// the end its square before.
+Real square_left(std::span<const Real> products) {
+  Real left = products.back();
+  for (const Real product : products.first(products.size() - 1)) left -= product * product;
+  return std::max(left, Real{0});
+}
+
 template <class Work>
 void for_chunks(std::size_t cells, Work&& work) {
   for (std::size_t begin = 0; begin < cells; begin += chunk) work(begin, std::min(chunk, cells - begin));
@@ -47,17 +55,18 @@ std::vector<Real> SearchSpace::products(std::size_t first, std::span<const Primi
       out[j - first] += sum;
     }
   });
+  out.push_back(square(vector));
   comm_.sum(out);
   return out;
 }
 
 void SearchSpace::add(std::span<Primitive<Real>> direction, std::span<Primitive<Real>> image,
                       std::vector<Real> functionals) {
-  const Real whole = std::sqrt(comm_.sum(square(image)));
-  Real left = whole;
+  Real whole = 0, left = 0;
   for (int pass = 0; pass < 2; ++pass) {
-    const Real before = left;
     const auto factors = products(0, image);
+    const Real before = std::sqrt(factors.back());
+    if (pass == 0) whole = before;
     for_chunks(cells_, [&](std::size_t begin, std::size_t count) {
       for (std::size_t j = 0; j < directions_.size(); ++j) {
         subtract(image.subspan(begin, count), factors[j],
@@ -69,7 +78,7 @@ void SearchSpace::add(std::span<Primitive<Real>> direction, std::span<Primitive<
     for (std::size_t j = 0; j < directions_.size(); ++j)
       for (std::size_t i = 0; i < functionals.size(); ++i)
         functionals[i] -= factors[j] * directions_[j].functionals[i];
-    left = std::sqrt(comm_.sum(square(image)));
+    left = std::sqrt(square_left(factors));
     if (left > largest_cancellation * before) break;
   }
   if (!(left > nothing_left * whole)) return;
@@ -86,7 +95,7 @@ void SearchSpace::add(std::span<Primitive<Real>> direction, std::span<Primitive<
   next.functionals = std::move(functionals);
 }
 
-void SearchSpace::reduce(int first, std::span<Primitive<Real>> defect, std::span<Primitive<Real>> solution,
+Real SearchSpace::reduce(int first, std::span<Primitive<Real>> defect, std::span<Primitive<Real>> solution,
                          std::span<Real> functionals) const {
   const auto begin_with = static_cast<std::size_t>(first);
   const auto factors = products(begin_with, defect);
@@ -101,6 +110,7 @@ void SearchSpace::reduce(int first, std::span<Primitive<Real>> defect, std::span
   for (std::size_t j = begin_with; j < directions_.size(); ++j)
     for (std::size_t i = 0; i < functionals.size(); ++i)
       functionals[i] += factors[j - begin_with] * directions_[j].functionals[i];
+  return square_left(factors);
 }
 
 }  // namespace alphadot

@@ -22,13 +22,15 @@ class SearchSpace {
   bool is_full() const { return size() >= capacity_; }
 
   /// Adds a direction, its image and linear functionals of it; the first two are overwritten. Leaves out one
-  /// whose image lies in the span of the others. Collective.
+  /// whose image lies in the span of the others. Collective: one all-reduce, two where the image lies close
+  /// to that span.
   void add(std::span<Primitive<Real>> direction, std::span<Primitive<Real>> image,
            std::vector<Real> functionals);
 
   /// Moves `solution` by directions from number `first` on so that what is left of `defect` = b - A solution
-  /// becomes the smallest, and `functionals` with it. Collective.
-  void reduce(int first, std::span<Primitive<Real>> defect, std::span<Primitive<Real>> solution,
+  /// becomes the smallest, and `functionals` with it. Returns the square of the defect's norm. Collective:
+  /// one all-reduce.
+  Real reduce(int first, std::span<Primitive<Real>> defect, std::span<Primitive<Real>> solution,
               std::span<Real> functionals) const;
 
   std::size_t bytes() const { return directions_.size() * cells_ * 2 * sizeof(Five<float>); }
@@ -38,6 +40,7 @@ class SearchSpace {
     std::vector<Five<float>> direction, image;  // [cells]
     std::vector<Real> functionals;
   };
+  /// Of a vector with the images from number `first` on, and at the end with itself.
   std::vector<Real> products(std::size_t first, std::span<const Primitive<Real>> vector) const;
 
   const Communicator& comm_;

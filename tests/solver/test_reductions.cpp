@@ -2,12 +2,14 @@
 // the MPI library. Expectations: the design, one for each residual that a driver looks at and none below it.
 #include <gtest/gtest.h>
 #include <mpi.h>
+#include <cmath>
 
 #include <memory>
 #include <vector>
 
 #include "moving_box.hpp"
 #include "ramp.hpp"
+#include "solver/search_space.hpp"
 #include "solver/sensitivity.hpp"
 #include "steady_flow.hpp"
 
@@ -106,6 +108,29 @@ TEST_F(ReductionsTest, AreOneInAnIterationOfLinearProblems) {
   SensitivitySolver(steady.iteration, conditions, settings, go_on)
       .solve({{"mach", {{1, 0, 0}, {}, {}}}, {"alpha", {{0, 0, 1}, {}, {}}}});
   EXPECT_GT(before, 0);
+}
+
+// One for a direction of GMRES and one for each defect that it reduces; a second one when the new image lies
+// nearly in the span of the others.
+TEST_F(ReductionsTest, AreOneInADirectionAndOneInADefect) {
+  const auto cells = static_cast<std::size_t>(box.domain.owned_cells);
+  const auto vector = [&](Real frequency) {
+    std::vector<Primitive<Real>> out(cells);
+    for (std::size_t cell = 0; cell < cells; ++cell)
+      out[cell][0] = std::sin(frequency * static_cast<Real>(box.domain.cell_ids[static_cast<Index>(cell)]));
+    return out;
+  };
+  SearchSpace space(cells, 4, comm);
+  auto first = vector(1.3), direction = first, second = vector(0.7), defect = vector(0.4);
+  EXPECT_EQ(reductions_of([&] { space.add(direction, first, {}); }), 1);
+  direction = second;
+  EXPECT_EQ(reductions_of([&] { space.add(direction, second, {}); }), 1);
+  auto solution = vector(0);
+  EXPECT_EQ(reductions_of([&] { space.reduce(0, defect, solution, {}); }), 1);
+  auto again = vector(1.3);
+  again[0][0] += 0.01;
+  direction = again;
+  EXPECT_EQ(reductions_of([&] { space.add(direction, again, {}); }), 2);
 }
 
 }  // namespace
