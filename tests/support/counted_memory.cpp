@@ -16,6 +16,14 @@ void* operator new(std::size_t size) {
   memory.largest = std::max(memory.largest.load(), size);
   return block;
 }
+// The library's own calls the one above, a sanitizer's does not; std::stable_sort uses it.
+void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
+  try {
+    return operator new(size);
+  } catch (const std::bad_alloc&) {
+    return nullptr;
+  }
+}
 void operator delete(void* block) noexcept {
   memory.in_use -= malloc_usable_size(block);
   std::free(block);
