@@ -48,6 +48,9 @@ of the verb derivatives: for spreadsheets, readers of AVL's files and JSBSim
 .I checkpoint_NNNNNN.vtkhdf
 what \-\-restart goes on from
 .TP
+.I mesh_2, mesh_3
+the same files of the coarser meshes that derivatives.coarser_meshes lists
+.TP
 .I case.toml
 the case with every default filled in
 .TP
