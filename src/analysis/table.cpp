@@ -35,8 +35,8 @@ std::vector<TableRow> rows_of(const DerivativeSet& derivatives, const std::strin
   for (const auto& [variable, values] : derivatives)
     for (int c = 0; c < values.size(); ++c)
       if (values[c].value != 0 || values[c].uncertainty != 0) {
-        auto& row = rows.emplace_back(derivative_name(names_in(axes)[static_cast<std::size_t>(c)], variable),
-                                      values[c], method);
+        auto& row = rows.emplace_back(TableRow{
+            derivative_name(names_in(axes)[static_cast<std::size_t>(c)], variable), values[c], method, {}});
         for (const auto& [source, share] : parts) row.parts.emplace_back(source, share.at(variable)[c]);
       }
   return rows;
