@@ -122,7 +122,7 @@ EstimatedDerivatives linear_derivatives(FlowCase& flow) {
   SensitivitySolver solver(flow.iteration(), flow.conditions(), settings.derivatives, go_on);
   EstimatedDerivatives out{solve_all(flow, solver, responses, false), {}};
   if (out.derivatives.empty()) return {};
-  auto& linear = out.parts.emplace_back("linear");
+  auto& linear = out.parts.emplace_back(UncertaintyPart{"linear", {}});
   for (const auto& [variable, column] : out.derivatives)
     for (int i = 0; i < column.size(); ++i) linear.share[variable][i] = column[i].uncertainty;
   if (!settings.derivatives.limiter_uncertainty) return out;
