@@ -42,6 +42,10 @@ struct SteadyResult {
 /// residual of nothing but round-off counts as converged too. The limiter is frozen after so many decades as
 /// its settings say, or where the residual has stopped to fall: at strong shocks it may never come to rest.
 /// Starts from the flow in `iteration`, or goes on `from` the state that belongs to it.
+///
+/// There is no start of first order: on the Basic Finner's coarse mesh at Mach 2.5 six decades take 34, 34,
+/// 38, 43 and 48 iterations and 3.1, 2.8, 3.3, 3.5 and 3.7 s of one core after 0, 5, 10, 15 and 20 iterations
+/// of first order.
 SteadyResult march_to_steady(ImplicitIteration& iteration, const Conditions<Real>& conditions,
                              const SteadySettings& settings, int order,
                              const std::function<bool(const SteadyProgress&)>& observer,
