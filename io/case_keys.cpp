@@ -155,8 +155,7 @@ std::vector<CaseKey> make_keys() {
            "also by the second time derivatives of alpha and beta, and where quasi-steady flight ends")
       .key("limiter_uncertainty", &DerivativeSettings::limiter_uncertainty, FlagValue{},
            "solve once more with the limiter's factors held at those of the steady flow, and add the "
-           "difference "
-           "to the uncertainty; doubles the cost of the linear solves")
+           "difference to the uncertainty; doubles the cost of the linear solves")
       .key("coarser_meshes", &DerivativeSettings::coarser_meshes, TextsValue{.most = 2},
            "the same flow on these meshes too, the finer first, for the part of the mesh in the uncertainty");
 

@@ -19,14 +19,14 @@ using Number = Dual<10, float>;
 constexpr int by_left = 0, by_right = 5;
 
 /// Adds area * d(flux)/d(state) to `sum`; the state's five directions begin with `first`.
-template <class N>
-void add_derivative(Matrix& sum, const Conserved<N>& flux, int first, Real area) {
+template <class T>
+void add_derivative(Matrix& sum, const Conserved<T>& flux, int first, Real area) {
   for (int column = 0; column < 5; ++column)
     for (int row = 0; row < 5; ++row) sum[5 * column + row] += area * flux[row].d[first + column];
 }
 
-template <class N>
-void store_derivative(Block& block, const Conserved<N>& flux, int first, Real area) {
+template <class T>
+void store_derivative(Block& block, const Conserved<T>& flux, int first, Real area) {
   for (int column = 0; column < 5; ++column)
     for (int row = 0; row < 5; ++row)
       block[5 * column + row] = static_cast<float>(area * flux[row].d[first + column]);

@@ -305,8 +305,10 @@ LimiterSlope Reconstruction<T>::limiter_slope(Index cell, const FlowField<T>& fl
   Real lowest = 1;
   for (int i = 0; i < 5; ++i) {
     if (!must_be_positive(i)) continue;
-    for (const Vec3& arm : arms)
-      lowest = std::min(lowest, 1 + out.factor[i] * change_at(out.gradient, to_face * arm, i) / w[i]);
+    FourReals delta;
+    for (std::size_t corner = 0; corner < arms.size(); ++corner)
+      delta[corner] = change_at(out.gradient, reach(limiter) * arms[corner], i);
+    lowest = std::min(lowest, lowest_ratio<limiter>(delta, out.factor[i], w[i]));
   }
   const Real share = positive_share(lowest);  // held
   for (auto* numbers : {&out.factor, &out.by_delta, &out.by_room}) *numbers = share * *numbers;
