@@ -18,9 +18,9 @@ Gmres::Gmres(const Discretization& discretization, const Communicator& comm,
     : discretization_(discretization),
       comm_(comm),
       inside_(std::move(inside)),
-      space_(static_cast<std::size_t>(discretization.domain().owned_cells), directions, comm),
+      space_(static_cast<std::size_t>(discretization.domain().owned_cells), directions,
+             [this](std::vector<Real>& numbers) { comm_.sum(numbers); }),
       defect_(static_cast<std::size_t>(discretization.domain().owned_cells)),
-      direction_(defect_.size()),
       image_(defect_.size()),
       product_(defect_.size()) {}
 
@@ -48,18 +48,19 @@ void Gmres::solve_one(const LinearSystem& system) {
   const LinearSystem first{system.residual, defect_};
   inside_->solve({&first, 1});
   space_.clear();
-  const Real whole = comm_.sum(square(defect_));
-  for (Real left = whole; left > left_over * left_over * whole && !space_.is_full();) {
-    const int before = space_.size();
-    direction_ = defect_;
-    apply(direction_, product_);
+  const Real target = left_over * std::sqrt(comm_.sum(square(defect_)));
+  SearchSpace::System search{defect_, {}, {}, 0};
+  do {
+    apply(defect_, product_);
     const LinearSystem next{product_, image_};
     inside_->solve({&next, 1});
-    for (auto& value : image_) value = Real{-1} * value;
-    space_.add(direction_, image_, {});
-    if (space_.size() == before) return;  // the space holds all that the preconditioner can find
-    left = space_.reduce(before, defect_, system.update, {});
-  }
+    const SearchSpace::Candidate candidate{defect_, image_, {}};
+    const int before = space_.size();
+    space_.add({&candidate, 1});
+    if (space_.size() == before) break;  // the space holds all that the preconditioner can find
+    space_.reduce({&search, 1});
+  } while (search.norm > target && !space_.is_full());
+  space_.move(system.update, search.shares);
 }
 
 void Gmres::solve(std::span<const LinearSystem> systems) {
@@ -69,7 +70,7 @@ void Gmres::solve(std::span<const LinearSystem> systems) {
 std::size_t Gmres::bytes() const {
   return inside_->bytes() + space_.bytes() + (linearisation_ ? linearisation_->bytes() : 0) +
          (tangent_ ? tangent_->bytes() : 0) + time_scale_.size() * sizeof(Real) +
-         4 * defect_.size() * sizeof(Primitive<Real>);
+         3 * defect_.size() * sizeof(Primitive<Real>);
 }
 
 }  // namespace alphadot

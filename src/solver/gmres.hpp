@@ -41,11 +41,10 @@ class Gmres final : public LinearSolver {
   SearchSpace space_;
   std::optional<Linearisation> linearisation_;
   std::optional<Tangent<1>> tangent_;
-  std::vector<Real> time_scale_;            // [owned_cells] of dU/dW
-  std::vector<Primitive<Real>> defect_;     // [owned_cells]
-  std::vector<Primitive<Real>> direction_;  // [owned_cells]
-  std::vector<Primitive<Real>> image_;      // [owned_cells]
-  std::vector<Conserved<Real>> product_;    // [owned_cells]
+  std::vector<Real> time_scale_;          // [owned_cells] of dU/dW
+  std::vector<Primitive<Real>> defect_;   // [owned_cells]
+  std::vector<Primitive<Real>> image_;    // [owned_cells]
+  std::vector<Conserved<Real>> product_;  // [owned_cells]
 };
 
 }  // namespace alphadot

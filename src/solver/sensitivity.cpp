@@ -79,7 +79,7 @@ class Lockstep {
         problems_(problems),
         settings_(settings),
         space_(static_cast<std::size_t>(iteration.discretization().domain().owned_cells), settings.directions,
-               comm_),
+               [this](std::vector<Real>& numbers) { iteration_.sum(numbers); }),
         go_on_(go_on),
         tangent_(linearisation, iteration.moment_center()) {
     const auto cells = static_cast<std::size_t>(iteration.discretization().domain().owned_cells);
@@ -88,6 +88,7 @@ class Lockstep {
       results_[k].field.resize(cells);
       images_[k].resize(cells);
       corrections_[k].resize(cells);
+      products_[k].resize(cells);
     }
   }
 
@@ -179,16 +180,22 @@ class Lockstep {
       if (used > 0) evaluate();
       if (space_.is_full()) space_.clear();
       const Real cycle_start = largest_norm();
-      reduce_all(0);
+      std::vector<SearchSpace::System> searches;
+      for (std::size_t k = 0; k < N; ++k)
+        searches.push_back({corrections_[k], records_[k].loads.back(), {}, 0});
       while (used < settings_.max_iterations && !space_.is_full() && !all_dropped(target_) &&
              largest_norm() > single_precision * cycle_start) {
-        const int first = space_.size();
         widen_space();
-        reduce_all(first);
+        space_.reduce(searches);
+        for (std::size_t k = 0; k < N; ++k) {
+          records_[k].loads.push_back(searches[k].functionals);
+          records_[k].norms.push_back(searches[k].norm);
+          ++results_[k].iterations;
+        }
         ++used;
-        for (auto& result : results_) ++result.iterations;
         if (is_stopped()) return;
       }
+      for (std::size_t k = 0; k < N; ++k) space_.move(results_[k].field, searches[k].shares);
     }
   }
 
@@ -197,24 +204,11 @@ class Lockstep {
     for (std::size_t k = 0; k < N; ++k) fields[k] = corrections_[k];
     tangent_.apply(fields, {}, spans());
     const auto loads = tangent_.loads();
-    auto directions = corrections_;
-    std::array<States, N> products;
-    for (std::size_t k = 0; k < N; ++k) products[k].resize(directions[k].size());
-    precondition(products);
-    for (std::size_t k = 0; k < N; ++k) {
-      for (auto& value : products[k]) value = Real{-1} * value;
-      space_.add(directions[k], products[k], numbers_of(loads[k]));
-    }
-  }
-
-  void reduce_all(int first) {
-    if (space_.size() == first) return;
-    for (std::size_t k = 0; k < N; ++k) {
-      auto loads = records_[k].loads.back();
-      space_.reduce(first, corrections_[k], results_[k].field, loads);
-      records_[k].loads.push_back(std::move(loads));
-    }
-    record_norms();
+    precondition(products_);
+    std::vector<SearchSpace::Candidate> candidates;
+    for (std::size_t k = 0; k < N; ++k)
+      candidates.push_back({corrections_[k], products_[k], numbers_of(loads[k])});
+    space_.add(candidates);
   }
 
   void finish(Sensitivity& result, Record& record) const {
@@ -241,7 +235,7 @@ class Lockstep {
   std::array<Sensitivity, N> results_;
   std::array<Record, N> records_;
   std::array<std::vector<Conserved<Real>>, N> images_;
-  std::array<States, N> corrections_;
+  std::array<States, N> corrections_, products_;
 };
 
 /// About the flow with its limiter free, as it is in a motion.

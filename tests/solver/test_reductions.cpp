@@ -110,9 +110,9 @@ TEST_F(ReductionsTest, AreOneInAnIterationOfLinearProblems) {
   EXPECT_GT(before, 0);
 }
 
-// One for a direction of GMRES and one for each defect that it reduces; a second one when the new image lies
-// nearly in the span of the others.
-TEST_F(ReductionsTest, AreOneInADirectionAndOneInADefect) {
+// One for all directions that GMRES adds at a time and one for all defects that they reduce; a further one for
+// an image that lies nearly in the span of the others.
+TEST_F(ReductionsTest, AreOneForNewDirectionsAndOneForTheDefects) {
   const auto cells = static_cast<std::size_t>(box.domain.owned_cells);
   const auto vector = [&](Real frequency) {
     std::vector<Primitive<Real>> out(cells);
@@ -120,17 +120,21 @@ TEST_F(ReductionsTest, AreOneInADirectionAndOneInADefect) {
       out[cell][0] = std::sin(frequency * static_cast<Real>(box.domain.cell_ids[static_cast<Index>(cell)]));
     return out;
   };
-  SearchSpace space(cells, 4, comm);
-  auto first = vector(1.3), direction = first, second = vector(0.7), defect = vector(0.4);
-  EXPECT_EQ(reductions_of([&] { space.add(direction, first, {}); }), 1);
-  direction = second;
-  EXPECT_EQ(reductions_of([&] { space.add(direction, second, {}); }), 1);
-  auto solution = vector(0);
-  EXPECT_EQ(reductions_of([&] { space.reduce(0, defect, solution, {}); }), 1);
+  SearchSpace space(cells, 4, [&](std::vector<Real>& numbers) { comm.sum(numbers); });
+  const auto added_with = [&](std::vector<std::vector<Primitive<Real>>> images) {
+    const auto directions = images;
+    std::vector<SearchSpace::Candidate> candidates;
+    for (std::size_t k = 0; k < images.size(); ++k) candidates.push_back({directions[k], images[k], {}});
+    return reductions_of([&] { space.add(candidates); });
+  };
+  EXPECT_EQ(added_with({vector(1.3), vector(0.7)}), 1);
+  auto defect = vector(0.4), other_defect = vector(0.3);
+  std::vector<SearchSpace::System> systems{{defect, {}, {}, 0}, {other_defect, {}, {}, 0}};
+  EXPECT_EQ(reductions_of([&] { space.reduce(systems); }), 1);
   auto again = vector(1.3);
   again[0][0] += 0.01;
-  direction = again;
-  EXPECT_EQ(reductions_of([&] { space.add(direction, again, {}); }), 2);
+  EXPECT_EQ(added_with({again}), 2);
+  EXPECT_EQ(space.size(), 3);
 }
 
 }  // namespace
