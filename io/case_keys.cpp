@@ -107,7 +107,7 @@ std::vector<CaseKey> make_keys() {
   Table(keys, "steady", &Case::steady)
       .key("scheme", &SteadySettings::scheme, WordValue{words_of<SchemeKind>}, "implicit scheme")
       .key("sweeps", &SteadySettings::sweeps, count,
-           "pairs of forward and backward passes of the block scheme")
+           "pairs of passes of the block scheme; where the flow is supersonic all but one go downstream")
       .key("krylov_directions", &SteadySettings::krylov_directions, IntegerValue{.from = 0, .to = 1000},
            "at most so many directions a step of GMRES, preconditioned by the scheme; 0: the scheme alone")
       .key("cfl_start", &SteadySettings::cfl_start, positive, "first CFL number")

@@ -54,7 +54,7 @@ struct SpaceSettings {
 
 struct SteadySettings {
   SchemeKind scheme = SchemeKind::block_lu_sgs;
-  int sweeps = 4;             ///< pairs of forward and backward passes of the block scheme
+  int sweeps = 4;             ///< pairs of passes of the block scheme
   int krylov_directions = 0;  ///< of GMRES around the scheme; 0: the scheme alone
   Real cfl_start = 20;
   Real cfl_max = 1000;  ///< larger ones save little, and flow around fins at high incidence stands no more

@@ -14,8 +14,18 @@ constexpr Index rows_ahead = 6;           // of a sweep, that the memory is aske
 BlockLuSgs::System::System(const Subdomain& domain, const Communicator& comm)
     : right(static_cast<std::size_t>(domain.owned_cells)), update(domain, comm, HaloWidth::faces) {}
 
-BlockLuSgs::BlockLuSgs(const Discretization& discretization, const Communicator& comm, int sweeps)
-    : discretization_(discretization), comm_(comm), sweeps_(sweeps), matrix_(discretization.domain()) {
+PassOrder pass_order(Real mach) {
+  constexpr Real wholly_supersonic = 1.2;  // the usual end of transonic flow
+  return mach < wholly_supersonic ? PassOrder::alternating : PassOrder::downstream;
+}
+
+BlockLuSgs::BlockLuSgs(const Discretization& discretization, const Communicator& comm, int sweeps,
+                       PassOrder order)
+    : discretization_(discretization),
+      comm_(comm),
+      sweeps_(sweeps),
+      order_(order),
+      matrix_(discretization.domain()) {
   systems_.push_back(std::make_unique<System>(discretization.domain(), comm));
 }
 
@@ -49,6 +59,11 @@ void BlockLuSgs::sweep(Direction direction, Index begin, Index end) {
   }
 }
 
+BlockLuSgs::Direction BlockLuSgs::direction(int pass) const {
+  const bool is_backward = order_ == PassOrder::alternating ? pass % 2 == 1 : pass == sweeps_;
+  return is_backward ? Direction::backward : Direction::forward;
+}
+
 template <int N>
 void BlockLuSgs::solve_together(std::span<const LinearSystem> systems) {
   const Index interior = discretization_.domain().interior_cells,
@@ -68,15 +83,20 @@ void BlockLuSgs::solve_together(std::span<const LinearSystem> systems) {
           .copy_to(systems_[k]->right[row].v, std::experimental::vector_aligned);
     }
   }
-  for (int pass = 0; pass < sweeps_; ++pass) {
-    sweep<N>(Direction::forward, 0, interior);
-    if (pass > 0) finish_exchange();
-    sweep<N>(Direction::forward, interior, cells);
-    start_exchange();
-    finish_exchange();
-    sweep<N>(Direction::backward, interior, cells);
-    if (pass + 1 < sweeps_) start_exchange();
-    sweep<N>(Direction::backward, 0, interior);
+  const int passes = 2 * sweeps_;
+  for (int pass = 0; pass < passes; ++pass) {
+    const bool is_first = pass == 0, is_last = pass + 1 == passes;
+    if (direction(pass) == Direction::forward) {
+      sweep<N>(Direction::forward, 0, interior);
+      if (!is_first) finish_exchange();
+      sweep<N>(Direction::forward, interior, cells);
+      if (!is_last) start_exchange();
+    } else {
+      if (!is_first) finish_exchange();
+      sweep<N>(Direction::backward, interior, cells);
+      if (!is_last) start_exchange();
+      sweep<N>(Direction::backward, 0, interior);
+    }
   }
   for (std::size_t k = 0; k < N; ++k)
     for (std::size_t cell = 0; cell < systems_[k]->right.size(); ++cell)

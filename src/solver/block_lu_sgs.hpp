@@ -14,15 +14,25 @@ struct alignas(32) SweepState {
   float v[8]{};
 };
 
+/// The directions of the passes over the cells, which are stored in the order of the flow. A disturbance of
+/// supersonic flow travels downstream: a forward pass carries it from cell to cell to the end, a backward one
+/// by one cell only. There all passes but one go forward. In subsonic flow it travels both ways, and passes
+/// alternate as in LU-SGS of old.
+enum class PassOrder { alternating, downstream };
+
+/// What suits a free stream of this Mach number.
+PassOrder pass_order(Real mach);
+
 /// Jacobian of the first-order flux, exact for the flux in use (forward differentiation), swept forward and
 /// backward. Across ranks the sweeps are hybrid: Gauss-Seidel within a rank, with halos renewed before every
-/// direction. Rows next to ghosts come last in a forward pass and first in a backward one, so that the halo
-/// between a backward and the next forward pass travels while both work on the interior. Right-hand sides
+/// pass. Rows next to ghosts come last in a forward pass and first in a backward one, so that the halo before
+/// a forward pass travels while the interior is worked on. Right-hand sides
 /// that are solved together share the reading of the matrix, which is what a sweep costs.
 class BlockLuSgs final : public LinearSolver {
  public:
-  /// `sweeps`: pairs of a forward and a backward pass in each solve.
-  BlockLuSgs(const Discretization& discretization, const Communicator& comm, int sweeps);
+  /// `sweeps`: pairs of passes in each solve.
+  BlockLuSgs(const Discretization& discretization, const Communicator& comm, int sweeps,
+             PassOrder order = PassOrder::alternating);
 
   void linearise(const FlowField<Real>& flow, const Conditions<Real>& conditions,
                  const TimeTerms& time) override;
@@ -32,6 +42,7 @@ class BlockLuSgs final : public LinearSolver {
 
  private:
   enum class Direction { forward, backward };
+  Direction direction(int pass) const;
   /// Relaxes the rows [begin, end) once, for the first N right-hand sides.
   template <int N>
   void sweep(Direction direction, Index begin, Index end);
@@ -48,6 +59,7 @@ class BlockLuSgs final : public LinearSolver {
   const Discretization& discretization_;
   const Communicator& comm_;
   int sweeps_;
+  PassOrder order_;
   BlockMatrix matrix_;
   std::vector<std::unique_ptr<System>> systems_;  // as many as were ever solved together
 };

@@ -83,7 +83,8 @@ void SearchSpace::add(std::span<const Candidate> candidates) {
       for (std::size_t k = 0; k < candidates.size(); ++k)
         products[k * stride + j] += product<float>(images_of(j).subspan(begin, count), part(k));
     for (std::size_t k = 0; k < candidates.size(); ++k)
-      for (std::size_t i = 0; i <= k; ++i) products[k * stride + known + i] += product<Real>(part(i), part(k));
+      for (std::size_t i = 0; i <= k; ++i)
+        products[k * stride + known + i] += product<Real>(part(i), part(k));
   });
   sum_(products);
   for_chunks(5 * cells_, [&](std::size_t begin, std::size_t count) {

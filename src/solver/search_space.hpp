@@ -12,8 +12,8 @@ namespace alphadot {
 /// Directions z of a linear system and their images w, what a unit of z adds to the defect, made orthonormal:
 /// the generalised conjugate residual form of GMRES (Eisenstat, Elman & Schultz 1983). Several systems share
 /// the directions. These stay as they come, in an upper triangle is kept how their images are made of the
-/// orthonormal ones, W = Q R, so that only the images pass through the processor. Kept in single precision, 40
-/// bytes a cell and direction; sums are in double.
+/// orthonormal ones, W = Q R, so that only the images pass through the processor. Kept in single precision,
+/// 40 bytes a cell and direction; sums are in double.
 class SearchSpace {
  public:
   /// Sums numbers over all ranks, in place.

@@ -113,7 +113,8 @@ class Bench {
         domain_(read_domain(settings, comm)),
         discretization_(domain_, kinds_of(settings, domain_), settings.space, settings.freestream.gamma),
         iteration_(discretization_, comm,
-                   std::make_unique<BlockLuSgs>(discretization_, comm, settings.steady.sweeps),
+                   std::make_unique<BlockLuSgs>(discretization_, comm, settings.steady.sweeps,
+                                                pass_order(settings.freestream.mach)),
                    settings.reference.moment_center) {
     const Real a = settings.freestream.alpha * radians_per_degree;
     const Vec3 wind = settings.freestream.mach * Vec3{std::cos(a), 0, std::sin(a)};

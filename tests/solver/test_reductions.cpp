@@ -110,8 +110,8 @@ TEST_F(ReductionsTest, AreOneInAnIterationOfLinearProblems) {
   EXPECT_GT(before, 0);
 }
 
-// One for all directions that GMRES adds at a time and one for all defects that they reduce; a further one for
-// an image that lies nearly in the span of the others.
+// One for all directions that GMRES adds at a time and one for all defects that they reduce; a further one
+// for an image that lies nearly in the span of the others.
 TEST_F(ReductionsTest, AreOneForNewDirectionsAndOneForTheDefects) {
   const auto cells = static_cast<std::size_t>(box.domain.owned_cells);
   const auto vector = [&](Real frequency) {
