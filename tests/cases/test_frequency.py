@@ -2,7 +2,8 @@
 """The limit of low frequency to second order beside plunges at two frequencies, on the sharp cone.
 
 The loads in phase with alpha are X_alpha - k^2 X_alphaddot + O(k^4): their difference between two frequencies gives X_alphaddot by
-motions in time alone. The difference leaves out what amplitude and time step (the same share of a cycle) do to both.
+motions in time alone. It is some 1e-3 of the loads, so inner iterations must go on for longer than usual. The second-order backward
+differences of the motion make its square of a frequency larger by 2/3 (omega dt)^2, 0.3 % with the case's 96 steps a cycle.
 """
 
 from __future__ import annotations
@@ -24,13 +25,13 @@ class Frequency(ExactCase):
     def test_second_derivatives(self) -> None:
         linear = self.derivatives("derivatives", "derivatives.toml", {"derivatives.second_order": "true", "derivatives.orders": 5})
         slow, fast = (
-            self.derivatives("run", "plunge.toml", {"motion.reduced_frequency": k, "unsteady.steps_per_cycle": 48})
+            self.derivatives("run", "plunge.toml", {"motion.reduced_frequency": k, "unsteady.inner_tolerance": 1e-5})
             for k in FREQUENCIES
         )
         for name in ("CN", "Cm"):
             change = fast[f"{name}_alpha"]["value"] - slow[f"{name}_alpha"]["value"]
             found = -change / (FREQUENCIES[1] ** 2 - FREQUENCIES[0] ** 2)
-            self.assert_close(f"{name}_alphaddot", found, linear[f"{name}_alphaddot"]["value"], 0.02)
+            self.assert_close(f"{name}_alphaddot", found, linear[f"{name}_alphaddot"]["value"], 0.01)
 
 
 if __name__ == "__main__":
