@@ -87,6 +87,7 @@ class FlowCase {
   ImplicitIteration iteration_;
   Motion motion_;
   SteadyState steady_state_;
+  std::size_t steady_attempt_ = 0;  ///< how often the march has begun again
   FlowReport steady_report_;
   Real steady_wall_ = not_measured, steady_cpu_ = not_measured;  // of the march on this rank
   std::string message_;
