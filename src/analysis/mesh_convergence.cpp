@@ -13,14 +13,17 @@ namespace alphadot {
 
 namespace {
 
-/// Solves e32 / e21 = r21^p (r32^p - 1) / (r21^p - 1) for p > 0 by bisection: the right side grows with p,
-/// from ln r32 / ln r21 at p = 0. No value when the levels do not converge monotonically.
-std::optional<Real> observed_order(Real ratio_of_changes, Real r21, Real r32) {
+/// Times the scheme's order: levels that seem to converge faster are two that agree by accident.
+constexpr Real largest_order = 2.5;
+
+/// Solves e32 / e21 = r21^p (r32^p - 1) / (r21^p - 1) for 0 < p < `most` by bisection: the right side grows
+/// with p, from ln r32 / ln r21 at p = 0. No value when the levels do not converge monotonically, or faster.
+std::optional<Real> observed_order(Real ratio_of_changes, Real r21, Real r32, Real most) {
   const auto misfit = [&](Real p) {
     const Real a = std::pow(r21, p);
     return a * (std::pow(r32, p) - 1) / (a - 1) - ratio_of_changes;
   };
-  Real low = 1e-3, high = 20;
+  Real low = 1e-3, high = most;
   if (!(misfit(low) < 0 && misfit(high) > 0)) return std::nullopt;
   while (high - low > 1e-12) {
     const Real middle = (low + high) / 2;
@@ -62,7 +65,8 @@ MeshConvergence mesh_convergence(std::span<const MeshLevel> levels, int dimensio
   bool converging = true;
   if (level.size() == 3) {
     const Real r32 = ratio(1), e32 = level[2].value - level[1].value;
-    const auto order = e21 != 0 ? observed_order(e32 / e21, r21, r32) : std::nullopt;
+    const auto order =
+        e21 != 0 ? observed_order(e32 / e21, r21, r32, largest_order * formal_order) : std::nullopt;
     result.observed = order.has_value();
     converging = result.observed || (e21 == 0 && e32 == 0);
     if (order) {

@@ -32,7 +32,8 @@ inline constexpr Real least_refinement_ratio = 1.05;
 ///
 /// Three levels that converge monotonically give the observed order p; above the scheme's `formal_order` it
 /// is cut to that, and below two fifths of it the levels are not in the asymptotic range, which the safety
-/// factor answers. Otherwise p is the formal order, the safety factor 3, and the largest difference of the
+/// factor answers. Otherwise, and where p were above two and a half times the formal order (two of the levels
+/// then agree by accident), p is the formal order, the safety factor 3, and the largest difference of the
 /// levels takes the place of that of the two finest.  GCI = F |f2 - f1| / (r^p - 1). Throws InputError for
 /// another number of levels or a ratio of h below least_refinement_ratio.
 MeshConvergence mesh_convergence(std::span<const MeshLevel> levels, int dimensions = 3,

@@ -115,6 +115,15 @@ TEST(MeshConvergence, OrderOutOfRange) {
   EXPECT_GE(mesh_convergence(fast).fine.uncertainty, std::abs(fast[0].value - 1));
 }
 
+// Two of three levels that agree to a hundredth of the change before would have an order of 6.6.
+TEST(MeshConvergence, AgreementByAccident) {
+  const std::vector<MeshLevel> levels{{800000, 24.558}, {100000, 24.555}, {12500, 24.255}};
+  const auto found = mesh_convergence(levels);
+  EXPECT_FALSE(found.observed);
+  EXPECT_EQ(found.extrapolated, 24.558);
+  EXPECT_NEAR(found.fine.uncertainty, 3 * 0.303 / 3, 1e-12);
+}
+
 // 200 seeded sequences: order 1 to 2, a second term of the next order and 0.5 % noise.
 TEST(MeshConvergence, UncertaintyCoversTheError) {
   test::Coverage coverage;
