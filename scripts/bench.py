@@ -99,10 +99,10 @@ def motions(mesh: Path) -> dict:
 
 
 def figure(name: str, unit: str, value: float, at_most: float | None = None, at_least: float | None = None) -> dict:
-    """A measured value beside its target."""
-    bound = {"at_most": at_most} if at_most is not None else {"at_least": at_least}
-    met = value <= at_most if at_most is not None else value >= at_least
-    return {"name": name, "unit": unit, "target": bound, "measured": round(value, 4), "met": met}
+    """A measured value beside its target, if it has one."""
+    target = {name: bound for name, bound in (("at_most", at_most), ("at_least", at_least)) if bound is not None}
+    met = (at_most is None or value <= at_most) and (at_least is None or value >= at_least)
+    return {"name": name, "unit": unit, "target": target, "measured": round(value, 4), "met": met}
 
 
 def main() -> None:
@@ -138,7 +138,7 @@ def main() -> None:
         both, once, before = in_time["plunge_cpu_s"] + in_time["pitch_cpu_s"], in_time["linear_cpu_s"], in_time["steady_cpu_s"]
         figures += [
             figure("plunge and pitch over linear solves", "ratio of s of a core", both / once, at_least=25),
-            figure("the same with the steady state in both", "ratio of s of a core", (both + before) / (once + before), at_least=25),
+            figure("the same with the steady state in both", "ratio of s of a core", (both + before) / (once + before)),
         ]
     out = {
         "date": datetime.datetime.now(datetime.timezone.utc).isoformat(timespec="seconds"),
@@ -156,10 +156,11 @@ def main() -> None:
 
     print(f"{record['cpu']}, {record['cores']} cores, load {record['load_before']} before")
     for entry in figures:
-        ((bound, target),) = entry["target"].items()
-        verdict = "met" if entry["met"] else "MISSED"
         label = f"{entry['name']} [{entry['unit']}]"
-        print(f"{label:<66} {entry['measured']:>9g}  {bound.replace('_', ' ')} {target:<6g} {verdict}")
+        print(f"{label:<66} {entry['measured']:>9g}", end="")
+        for bound, target in entry["target"].items():
+            print(f"  {bound.replace('_', ' ')} {target:<6g} {'met' if entry['met'] else 'MISSED'}", end="")
+        print()
     if record["load_before"] > 0.5:
         print("the machine was busy: the ratio of wall times says little")
     print(f"written to {arguments.out}")
