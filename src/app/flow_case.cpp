@@ -28,6 +28,11 @@ namespace alphadot {
 
 namespace {
 
+Real mach_along_x(const FreestreamSettings& stream) {
+  return stream.mach * std::cos(stream.alpha * radians_per_degree) *
+         std::cos(stream.beta * radians_per_degree);
+}
+
 std::unique_ptr<LinearSolver> make_linear_solver(const Discretization& discretization,
                                                  const Communicator& comm, const Case& settings) {
   const SteadySettings& steady = settings.steady;
@@ -36,7 +41,7 @@ std::unique_ptr<LinearSolver> make_linear_solver(const Discretization& discretiz
     out = std::make_unique<LuSgs>(discretization, comm);
   else
     out = std::make_unique<BlockLuSgs>(discretization, comm, steady.sweeps,
-                                       pass_order(settings.freestream.mach));
+                                       pass_order(mach_along_x(settings.freestream)));
   if (steady.krylov_directions == 0) return out;
   return std::make_unique<Gmres>(discretization, comm, std::move(out), steady.krylov_directions);
 }

@@ -14,9 +14,11 @@ constexpr Index rows_ahead = 6;           // of a sweep, that the memory is aske
 BlockLuSgs::System::System(const Subdomain& domain, const Communicator& comm)
     : right(static_cast<std::size_t>(domain.owned_cells)), update(domain, comm, HaloWidth::faces) {}
 
-PassOrder pass_order(Real mach) {
-  constexpr Real wholly_supersonic = 1.2;  // the usual end of transonic flow
-  return mach < wholly_supersonic ? PassOrder::alternating : PassOrder::downstream;
+PassOrder pass_order(Real mach_along_x) {
+  // On the Basic Finner alternating passes take 193 iterations to six decades at Mach 1.05, 82 at 1.2;
+  // downstream ones more than 200, and 70.
+  constexpr Real mostly_supersonic = 1.1;
+  return mach_along_x < mostly_supersonic ? PassOrder::alternating : PassOrder::downstream;
 }
 
 BlockLuSgs::BlockLuSgs(const Discretization& discretization, const Communicator& comm, int sweeps,

@@ -14,20 +14,20 @@ struct alignas(32) SweepState {
   float v[8]{};
 };
 
-/// The directions of the passes over the cells, which are stored in the order of the flow. A disturbance of
-/// supersonic flow travels downstream: a forward pass carries it from cell to cell to the end, a backward one
-/// by one cell only. There all passes but one go forward. In subsonic flow it travels both ways, and passes
-/// alternate as in LU-SGS of old.
+/// The directions of the passes over the cells, which are stored in the order of their x. A disturbance of
+/// flow that is supersonic in that direction travels with it: a forward pass carries it from cell to cell to
+/// the end, a backward one by one cell only. There all passes but one go forward. In other flow it travels
+/// both ways, and passes alternate as in LU-SGS of old.
 enum class PassOrder { alternating, downstream };
 
-/// What suits a free stream of this Mach number.
-PassOrder pass_order(Real mach);
+/// What suits a free stream with this Mach number along x.
+PassOrder pass_order(Real mach_along_x);
 
 /// Jacobian of the first-order flux, exact for the flux in use (forward differentiation), swept forward and
 /// backward. Across ranks the sweeps are hybrid: Gauss-Seidel within a rank, with halos renewed before every
 /// pass. Rows next to ghosts come last in a forward pass and first in a backward one, so that the halo before
-/// a forward pass travels while the interior is worked on. Right-hand sides
-/// that are solved together share the reading of the matrix, which is what a sweep costs.
+/// a forward pass travels while the interior is worked on. Right-hand sides that are solved together share
+/// the reading of the matrix, which is what a sweep costs.
 class BlockLuSgs final : public LinearSolver {
  public:
   /// `sweeps`: pairs of passes in each solve.

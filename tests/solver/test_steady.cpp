@@ -66,6 +66,17 @@ TEST_P(Steady, DoesNotDependOnTheImplicitScheme) {
   expect_same(states(scalar, box), states(block, box), 1e-9);
 }
 
+// Supersonic flow along x, in which a forward pass carries a disturbance to the end.
+TEST_P(Steady, IsReachedSoonerByPassesDownstream) {
+  const BoxCase box(mesh, ramp_sides(), space, comm);
+  const SteadyFlow alternating(box, ramp_conditions(), orders);
+  const SteadyFlow downstream(
+      box, ramp_conditions(), orders,
+      std::make_unique<BlockLuSgs>(box.discretization, comm, 3, PassOrder::downstream));
+  expect_same(states(downstream, box), states(alternating, box), 1e-9);
+  EXPECT_LE(downstream.result.iterations, alternating.result.iterations);
+}
+
 TEST_P(Steady, IsReachedByGmresAroundEitherScheme) {
   const BoxCase box(mesh, ramp_sides(), space, comm);
   const SteadyFlow block(box, ramp_conditions(), orders);
