@@ -70,7 +70,7 @@ constexpr Real no_pseudo_time = 1e30;  // CFL number
 
 // The order of the passes is a matter of speed, not of the solution.
 TEST_P(BlockLuSgsTest, FindsTheSameSolutionByPassesDownstream) {
-  constexpr int many = 24;
+  constexpr int many = 64;
   const TimeTerms time{.cfl = no_pseudo_time, .inverse_step = 1};
   const auto alternating = solve(many, time), downstream = solve(many, time, PassOrder::downstream);
   Real largest = 0, apart = 0;
