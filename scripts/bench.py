@@ -100,8 +100,11 @@ def motions(mesh: Path) -> dict:
 
 def figure(name: str, unit: str, value: float, at_most: float | None = None, at_least: float | None = None) -> dict:
     """A measured value beside its target, if it has one."""
-    target = {name: bound for name, bound in (("at_most", at_most), ("at_least", at_least)) if bound is not None}
-    met = (at_most is None or value <= at_most) and (at_least is None or value >= at_least)
+    target, met = {}, None
+    if at_most is not None:
+        target, met = {"at_most": at_most}, value <= at_most
+    if at_least is not None:
+        target, met = {"at_least": at_least}, value >= at_least
     return {"name": name, "unit": unit, "target": target, "measured": round(value, 4), "met": met}
 
 

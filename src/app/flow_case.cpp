@@ -28,22 +28,16 @@ namespace alphadot {
 
 namespace {
 
-Real mach_along_x(const FreestreamSettings& stream) {
-  return stream.mach * std::cos(stream.alpha * radians_per_degree) *
-         std::cos(stream.beta * radians_per_degree);
-}
-
 std::unique_ptr<LinearSolver> make_linear_solver(const Discretization& discretization,
-                                                 const Communicator& comm, const Case& settings) {
-  const SteadySettings& steady = settings.steady;
+                                                 const Communicator& comm, const SteadySettings& settings,
+                                                 PassOrder order) {
   std::unique_ptr<LinearSolver> out;
-  if (steady.scheme == SchemeKind::lu_sgs)
+  if (settings.scheme == SchemeKind::lu_sgs)
     out = std::make_unique<LuSgs>(discretization, comm);
   else
-    out = std::make_unique<BlockLuSgs>(discretization, comm, steady.sweeps,
-                                       pass_order(mach_along_x(settings.freestream)));
-  if (steady.krylov_directions == 0) return out;
-  return std::make_unique<Gmres>(discretization, comm, std::move(out), steady.krylov_directions);
+    out = std::make_unique<BlockLuSgs>(discretization, comm, settings.sweeps, order);
+  if (settings.krylov_directions == 0) return out;
+  return std::make_unique<Gmres>(discretization, comm, std::move(out), settings.krylov_directions);
 }
 
 std::string run_folder(const CaseArguments& arguments, const Case& settings) {
@@ -89,9 +83,11 @@ FlowCase::FlowCase(const CaseArguments& arguments, const Communicator& comm)
       progress_(setup_.settings, folder_, comm.is_root()),
       discretization_(setup_.domain, setup_.patch_kinds, setup_.settings.space,
                       setup_.settings.freestream.gamma),
-      iteration_(discretization_, comm, make_linear_solver(discretization_, comm, setup_.settings),
-                 setup_.settings.reference.moment_center),
-      motion_(make_motion(setup_.settings, comm)) {
+      motion_(make_motion(setup_.settings, comm)),
+      iteration_(
+          discretization_, comm,
+          make_linear_solver(discretization_, comm, setup_.settings.steady, pass_order(motion_.wind().x)),
+          setup_.settings.reference.moment_center) {
   const Real cells = static_cast<Real>(setup_.mesh.cells);
   const auto& memory = setup_.memory;
   spdlog::info(

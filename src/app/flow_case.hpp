@@ -84,8 +84,8 @@ class FlowCase {
   Checkpoints checkpoints_;
   Progress progress_;
   Discretization discretization_;
-  ImplicitIteration iteration_;
   Motion motion_;
+  ImplicitIteration iteration_;
   SteadyState steady_state_;
   std::size_t steady_attempt_ = 0;  ///< how often the march has begun again
   FlowReport steady_report_;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <type_traits>
 #include <utility>
 
@@ -49,13 +48,9 @@ std::vector<float> scaled(Real factor, std::span<const Real> vector) {
   return out;
 }
 
-Real square(std::span<const Real> numbers) {
-  return std::inner_product(numbers.begin(), numbers.end(), numbers.begin(), Real{0});
-}
-
 /// What is left of a square when a vector loses its parts along orthonormal ones (Pythagoras).
 Real square_left(Real whole, std::span<const Real> parts) {
-  return std::max(whole - square(parts), Real{0});
+  return std::max(whole - product(parts, parts), Real{0});
 }
 
 template <class Work>
@@ -102,8 +97,7 @@ void SearchSpace::add(std::span<const Candidate> candidates) {
     std::vector<Real> column(row.begin(), row.begin() + static_cast<std::ptrdiff_t>(known));
     for (const std::size_t i : kept) {  // as in Cholesky's decomposition
       const Direction& other = directions_[column.size()];
-      const Real common = std::inner_product(column.begin(), column.end(), other.column.begin(), Real{0});
-      column.push_back((row[known + i] - common) / other.column.back());
+      column.push_back((row[known + i] - product<Real>(other.column, column)) / other.column.back());
       add_scaled(image, -column.back(), other.image);
     }
     Real left = square_left(whole, column);

@@ -20,6 +20,7 @@
 #include "io/case_file.hpp"
 #include "io/mesh_reader.hpp"
 #include "io/partitioned_mesh.hpp"
+#include "motion/motion.hpp"
 #include "solver/block_lu_sgs.hpp"
 #include "solver/implicit_iteration.hpp"
 #include "solver/lu_sgs.hpp"
@@ -45,6 +46,10 @@ Subdomain read_domain(const Case& settings, const Communicator& comm) {
   Mesh mesh;
   comm.on_root([&] { mesh = read_mesh(settings.mesh.file); });
   return distribute(mesh, comm, settings.mesh.scale);
+}
+
+Vec3 wind_of(const FreestreamSettings& stream) {
+  return wind_velocity(stream.mach, stream.alpha * radians_per_degree, stream.beta * radians_per_degree);
 }
 
 std::vector<BoundaryKind> kinds_of(const Case& settings, const Subdomain& domain) {
@@ -114,11 +119,9 @@ class Bench {
         discretization_(domain_, kinds_of(settings, domain_), settings.space, settings.freestream.gamma),
         iteration_(discretization_, comm,
                    std::make_unique<BlockLuSgs>(discretization_, comm, settings.steady.sweeps,
-                                                pass_order(settings.freestream.mach)),
+                                                pass_order(wind_of(settings.freestream).x)),
                    settings.reference.moment_center) {
-    const Real a = settings.freestream.alpha * radians_per_degree;
-    const Vec3 wind = settings.freestream.mach * Vec3{std::cos(a), 0, std::sin(a)};
-    conditions_ = steady_conditions(wind, {}, settings.freestream.gamma);
+    conditions_ = steady_conditions(wind_of(settings.freestream), {}, settings.freestream.gamma);
     develop(iteration_, block_cfl);
   }
 
