@@ -49,7 +49,7 @@ Checkpoints::Checkpoints(const Setup& setup, std::string folder, std::string sto
       since_start_(since_start),
       comm_(comm),
       file_(setup.domain, comm),
-      last_wish_(since_start.wall()),
+      last_asked_(since_start.wall()),
       last_save_(since_start.wall()) {
   comm_.on_root([&] { in_folder_.emplace(folder_, setup_.settings.checkpoint.keep); });
 }
@@ -106,7 +106,7 @@ bool Checkpoints::wall_limit_is_near() const {
   return limit > 0 && since_start_.wall() + needed > limit;
 }
 
-Passengers Checkpoints::passengers() {
+Reduction Checkpoints::reduction() {
   return {[this] { return asked_here(); }, [this](std::span<const Real> asked) { hear(asked); }};
 }
 
@@ -119,9 +119,9 @@ std::vector<Real> Checkpoints::asked_here() {
 }
 
 void Checkpoints::hear(std::span<const Real> asked) {
-  if (asked[0] > 0) wish_.save = true;
-  if (wish_.stop || asked[1] + asked[2] + asked[3] == 0) return;
-  wish_ = {true, true};
+  if (asked[0] > 0) request_.save = true;
+  if (request_.stop || asked[1] + asked[2] + asked[3] == 0) return;
+  request_ = {true, true};
   if (asked[1] > 0) stop_reason_ = "stopped by a signal";
   if (asked[2] > 0) stop_reason_ = "stopped by the file \"stop\" in the run's folder";
   if (asked[3] > 0)
@@ -129,12 +129,12 @@ void Checkpoints::hear(std::span<const Real> asked) {
                                setup_.settings.checkpoint.wall_limit_minutes);
 }
 
-Wish Checkpoints::wish(bool interval_is_over) {
+Request Checkpoints::request(bool interval_is_over) {
   const Real now = since_start_.wall();
-  longest_step_ = std::max(longest_step_, now - last_wish_);
-  last_wish_ = now;
-  if (interval_is_over) wish_.save = true;
-  return wish_;
+  longest_step_ = std::max(longest_step_, now - last_asked_);
+  last_asked_ = now;
+  if (interval_is_over) request_.save = true;
+  return request_;
 }
 
 void Checkpoints::save(const CheckpointHead& head, const std::vector<CheckpointField>& fields) {
@@ -142,7 +142,7 @@ void Checkpoints::save(const CheckpointHead& head, const std::vector<CheckpointF
   std::string path;
   if (comm_.is_root()) path = in_folder_->next_path();
   path = comm_.broadcast(path);
-  wish_.save = false;
+  request_.save = false;
   try {
     file_.write(path, head, fields);
   } catch (const InputError& error) {

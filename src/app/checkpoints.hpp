@@ -10,12 +10,12 @@
 #include "core/timer.hpp"
 #include "io/checkpoint.hpp"
 #include "io/checkpoint_folder.hpp"
-#include "solver/implicit_iteration.hpp"
+#include "march/implicit_iteration.hpp"
 
 namespace alphadot {
 
 /// What the run has been asked for and not yet done.
-struct Wish {
+struct Request {
   bool save = false, stop = false;
 };
 
@@ -38,15 +38,15 @@ class Checkpoints {
   void read(const std::vector<CheckpointField>& fields);
 
   /// Signals, stop file and clock of all ranks, for the all-reduces of an iteration. Refers to this object.
-  Passengers passengers();
-  /// To be called after each iteration or step: what the passengers told up to now. `interval_is_over`, the
-  /// same on all ranks, wishes for a checkpoint as well. A wish stays until it is fulfilled: by save(), or by
-  /// the end.
-  Wish wish(bool interval_is_over);
+  Reduction reduction();
+  /// To be called after each iteration or step: with what the sums told up to now. `interval_is_over`, the
+  /// same on all ranks, asks for a checkpoint as well. A request stays until it is fulfilled: by save(), or
+  /// by the end.
+  Request request(bool interval_is_over);
   /// Writes a checkpoint and tells of it. Collective. When it cannot be written: InputError on every rank, or
   /// a warning, as the case says.
   void save(const CheckpointHead& head, const std::vector<CheckpointField>& fields);
-  /// Why wish() is for the end.
+  /// Why request() is for the end.
   const std::string& stop_reason() const { return stop_reason_; }
 
   /// What the checkpoints that were written have cost this rank, and what beginning from one has.
@@ -67,10 +67,10 @@ class Checkpoints {
   std::optional<CheckpointFolder> in_folder_;  ///< on the root
   std::optional<RestartPoint> restart_;
   Case case_before_;
-  Wish wish_;
+  Request request_;
   std::string stop_reason_;
   std::string latest_;  ///< file name of the last whole checkpoint, on the root
-  Real last_wish_, longest_step_ = 0, last_save_, last_cost_ = 0, last_look_ = -1;  ///< seconds
+  Real last_asked_, longest_step_ = 0, last_save_, last_cost_ = 0, last_look_ = -1;  ///< seconds
   TimeSpent writing_, reading_;
 };
 

@@ -20,9 +20,9 @@
 #include "core/memory.hpp"
 #include "io/case_file.hpp"
 #include "io/files.hpp"
-#include "solver/block_lu_sgs.hpp"
-#include "solver/gmres.hpp"
-#include "solver/lu_sgs.hpp"
+#include "linear/block_lu_sgs.hpp"
+#include "linear/gmres.hpp"
+#include "linear/lu_sgs.hpp"
 
 namespace alphadot {
 
@@ -98,7 +98,7 @@ FlowCase::FlowCase(const CaseArguments& arguments, const Communicator& comm)
       memory.peak / cells, 1e-9 * memory.busiest_rank);
   const auto excluded = excluded_patches();
   if (!excluded.empty()) spdlog::info("left out of the forces: {}", fmt::join(excluded, ", "));
-  iteration_.take_along(checkpoints_.passengers());
+  iteration_.take_along(checkpoints_.reduction());
   if (arguments.restart) checkpoints_.begin_from(*arguments.restart);
 }
 
@@ -195,12 +195,12 @@ RunStatus FlowCase::march() {
   const auto observe = [&](const SteadyProgress& p) {
     progress_.show(p);
     steady_state_ = p.state;
-    const Wish wish = checkpoints_.wish(interval > 0 && p.iteration % interval == 0);
-    if (wish.save && p.resumable) {
+    const Request request = checkpoints_.request(interval > 0 && p.iteration % interval == 0);
+    if (request.save && p.resumable) {
       save(steady_head("steady"));
       saved = steady_state_.iteration;
     }
-    return !(wish.stop && p.resumable);
+    return !(request.stop && p.resumable);
   };
   const Timer timer;
   const auto march_on = [&] {

@@ -14,8 +14,8 @@
 #include "core/error.hpp"
 #include "core/timer.hpp"
 #include "io/result.hpp"
-#include "solver/steady.hpp"
-#include "solver/treatment.hpp"
+#include "march/steady.hpp"
+#include "march/treatment.hpp"
 
 namespace alphadot {
 

@@ -9,7 +9,7 @@
 #include "app/responses.hpp"
 #include "app/watchdog.hpp"
 #include "core/log.hpp"
-#include "solver/sensitivity.hpp"
+#include "derivatives/sensitivity.hpp"
 
 namespace alphadot {
 
@@ -117,7 +117,7 @@ EstimatedDerivatives linear_derivatives(FlowCase& flow) {
       settings.checkpoint.watchdog_minutes, [&] { return linear_iterations.load(); }, flow.communicator());
   const auto go_on = [&] {
     ++linear_iterations;
-    return !flow.checkpoints().wish(false).stop;
+    return !flow.checkpoints().request(false).stop;
   };
   SensitivitySolver solver(flow.iteration(), flow.conditions(), settings.derivatives, go_on);
   EstimatedDerivatives out{solve_all(flow, solver, responses, false), {}};

@@ -3,7 +3,7 @@
 
 #include "analysis/coefficients.hpp"
 #include "core/case.hpp"
-#include "solver/forces.hpp"
+#include "space/forces.hpp"
 
 namespace alphadot {
 

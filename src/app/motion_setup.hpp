@@ -2,8 +2,8 @@
 #pragma once
 
 #include "app/setup.hpp"
+#include "march/dual_time.hpp"
 #include "motion/motion.hpp"
-#include "solver/dual_time.hpp"
 
 namespace alphadot {
 

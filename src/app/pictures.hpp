@@ -4,7 +4,7 @@
 #include <string>
 
 #include "app/setup.hpp"
-#include "solver/implicit_iteration.hpp"
+#include "march/implicit_iteration.hpp"
 
 namespace alphadot {
 

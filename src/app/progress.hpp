@@ -9,8 +9,8 @@
 #include "io/history.hpp"
 #include "io/live_table.hpp"
 #include "io/result.hpp"
-#include "solver/dual_time.hpp"
-#include "solver/steady.hpp"
+#include "march/dual_time.hpp"
+#include "march/steady.hpp"
 
 namespace alphadot {
 

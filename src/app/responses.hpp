@@ -6,7 +6,7 @@
 
 #include "analysis/derivatives.hpp"
 #include "app/flow_case.hpp"
-#include "solver/sensitivity.hpp"
+#include "derivatives/sensitivity.hpp"
 
 namespace alphadot {
 

@@ -12,7 +12,7 @@
 #include "core/log.hpp"
 #include "core/timer.hpp"
 #include "io/history.hpp"
-#include "solver/dual_time.hpp"
+#include "march/dual_time.hpp"
 
 namespace alphadot {
 
@@ -92,9 +92,9 @@ RunStatus follow_motion(FlowCase& flow, History& history) {
     const auto step = dual_time.advance(tolerance);
     history.append(history_row(step, flow));
     flow.progress().show(step, history);
-    const Wish wish = flow.checkpoints().wish(interval > 0 && step.step % interval == 0);
-    if (wish.save || step.step == steps) save(flow, dual_time, history);
-    if (wish.stop && step.step < steps) {
+    const Request request = flow.checkpoints().request(interval > 0 && step.step % interval == 0);
+    if (request.save || step.step == steps) save(flow, dual_time, history);
+    if (request.stop && step.step < steps) {
       flow.set_message(flow.checkpoints().stop_reason());
       return RunStatus::interrupted;
     }

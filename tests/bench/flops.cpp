@@ -3,8 +3,8 @@
 #include <vector>
 
 // The residual's templates, to be compiled once more for the scalar that counts.
-#include "solver/reconstruction.cpp"  // NOLINT
-#include "solver/residual.cpp"        // NOLINT
+#include "space/reconstruction.cpp"  // NOLINT
+#include "space/residual.cpp"        // NOLINT
 
 namespace alphadot {
 

@@ -2,9 +2,9 @@
 #pragma once
 
 #include "bench/counted.hpp"
-#include "solver/conditions.hpp"
-#include "solver/discretization.hpp"
-#include "solver/flow_field.hpp"
+#include "space/conditions.hpp"
+#include "space/discretization.hpp"
+#include "space/flow_field.hpp"
 
 namespace alphadot {
 

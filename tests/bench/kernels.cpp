@@ -20,12 +20,12 @@
 #include "io/case_file.hpp"
 #include "io/mesh_reader.hpp"
 #include "io/partitioned_mesh.hpp"
+#include "linear/block_lu_sgs.hpp"
+#include "linear/lu_sgs.hpp"
+#include "linear/tangent.hpp"
+#include "march/implicit_iteration.hpp"
+#include "march/steady.hpp"
 #include "motion/motion.hpp"
-#include "solver/block_lu_sgs.hpp"
-#include "solver/implicit_iteration.hpp"
-#include "solver/lu_sgs.hpp"
-#include "solver/steady.hpp"
-#include "solver/tangent.hpp"
 
 namespace alphadot {
 namespace {

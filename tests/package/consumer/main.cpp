@@ -7,10 +7,10 @@
 #include "analysis/coefficients.hpp"
 #include "core/communicator.hpp"
 #include "io/mesh_reader.hpp"
+#include "linear/block_lu_sgs.hpp"
+#include "march/steady.hpp"
 #include "partition/subdomain.hpp"
-#include "solver/block_lu_sgs.hpp"
-#include "solver/conditions.hpp"
-#include "solver/steady.hpp"
+#include "space/conditions.hpp"
 
 using namespace alphadot;
 

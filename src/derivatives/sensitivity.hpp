@@ -1,0 +1,62 @@
+// Linear response of a steady flow to small changes of its conditions: the exact limit of low frequency.
+#pragma once
+
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/case.hpp"
+#include "linear/tangent.hpp"
+#include "march/implicit_iteration.hpp"
+
+namespace alphadot {
+
+/// One linear problem A U = -(dR/dc) - V dU_rate/dt about a steady flow, A = dR/dW. With the semi-discrete
+/// equations V dU/dt + R(W, c) = 0 and a slow change c(t), W = W0 + W_c c + W_cdot dc/dt + ...:  A W_c = -R_c
+/// and A W_cdot = -V (dU/dW) W_c. No time step, frequency or amplitude enters.
+struct SensitivityProblem {
+  std::string name;
+  ConditionsChange change;  ///< c; zero for the response to a rate
+  std::span<const Primitive<Real>> rate =
+      {};  ///< W_c of the quantity whose rate this is, [owned_cells]; or empty
+};
+
+struct Sensitivity {
+  std::string name;
+  std::vector<Primitive<Real>> field;  ///< W_c, [owned_cells]
+  std::vector<Load> loads;             ///< change of the load of every patch, over all ranks
+  Load total;
+  Load total_error;  ///< how far the total may be from that of the exact solution of the linear problem
+  Real relative_residual = 1;  ///< |P^-1 (A U + b)| / |P^-1 b| with the preconditioner P
+  int iterations = 0;
+};
+
+/// Solves linear problems about one steady flow, up to three at a time with one differentiated residual,
+/// preconditioned by (or, for the method `march`, iterated with) the implicit scheme of `iteration`. Those
+/// that are solved together share their directions.
+class SensitivitySolver {
+ public:
+  /// So many problems are solved together.
+  static constexpr std::size_t at_a_time = 3;
+
+  /// The flow of `iteration` must be steady under `conditions`. `go_on`, when given, is asked after each
+  /// linear iteration, on every rank. Collective.
+  SensitivitySolver(ImplicitIteration& iteration, const Conditions<Real>& conditions,
+                    const DerivativeSettings& settings, std::function<bool()> go_on = {});
+
+  /// From now on the problems leave the limiter's reaction out: its factors stay those of the steady flow.
+  void hold_limiter() { linearisation_.hold_limiter(); }
+
+  /// Nothing when `go_on` said no. Throws DivergedError when a march grows: the steady state then hides an
+  /// unstable cell. Collective.
+  std::vector<Sensitivity> solve(const std::vector<SensitivityProblem>& problems);
+
+ private:
+  ImplicitIteration& iteration_;
+  Linearisation linearisation_;
+  DerivativeSettings settings_;
+  std::function<bool()> go_on_;
+};
+
+}  // namespace alphadot

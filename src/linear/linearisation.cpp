@@ -1,0 +1,120 @@
+#include "linear/linearisation.hpp"
+
+#include <algorithm>
+
+#include "euler/independent.hpp"
+
+namespace alphadot {
+
+Linearisation::Linearisation(const Discretization& discretization, const Communicator& comm,
+                             const FlowField<Real>& flow, const Reconstruction<Real>& reconstruction,
+                             const Conditions<Real>& conditions)
+    : discretization_(discretization),
+      comm_(comm),
+      flow_(flow),
+      conditions_(conditions),
+      faces_(discretization.domain().faces.size()),
+      boundary_faces_(discretization.domain().boundary_faces.size()) {
+  if (discretization.space().order > 1) slopes_ = reconstruction.limiter_slopes(flow);
+  differentiate_faces(reconstruction);
+  differentiate_boundary(reconstruction);
+}
+
+void Linearisation::hold_limiter() {
+  for (LimiterSlope& slope : slopes_) slope.by_delta = slope.by_bound = {};
+}
+
+namespace {
+
+template <int N>
+Linearisation::Matrix by_state(const Conserved<Dual<N>>& flux) {
+  Linearisation::Matrix out;
+  for (int column = 0; column < 5; ++column)
+    for (int row = 0; row < 5; ++row) out[static_cast<std::size_t>(5 * column + row)] = flux[row].d[column];
+  return out;
+}
+
+template <int N>
+Five<Real> by_variable(const Conserved<Dual<N>>& flux, int variable) {
+  Five<Real> out;
+  for (int row = 0; row < 5; ++row) out[row] = flux[row].d[variable];
+  return out;
+}
+
+}  // namespace
+
+[[gnu::flatten]] void Linearisation::differentiate_faces(const Reconstruction<Real>& reconstruction) {
+  constexpr int speed_variable = 5;
+  using Number = Dual<6>;
+  const Subdomain& domain = discretization_.domain();
+  for (std::size_t face = 0; face < faces_.size(); ++face) {
+    const auto [left, right] = domain.faces[face];
+    const Real area = norm(domain.face_normal[face]);
+    const Vec3 normal = (1 / area) * domain.face_normal[face];
+    const Vec3 center = domain.face_center[face];
+    Primitive<Real> wl = flow_[left], wr = flow_[right];
+    Face& out = faces_[face];
+    out.share = 0;
+    if (discretization_.space().order > 1) {
+      const auto l = extrapolated(wl, reconstruction[left], center - domain.center[left]);
+      const auto r = extrapolated(wr, reconstruction[right], center - domain.center[right]);
+      out.share = std::min(usable_share(l, wl), usable_share(r, wr));
+      wl += out.share * (l - wl);
+      wr += out.share * (r - wr);
+    }
+    Number speed = conditions_.face_speed(static_cast<Index>(face), center, normal);
+    const FluxModel& model = discretization_.flux();
+    out.right = by_state(area * numerical_flux(model, constant<6>(wl), independent<6>(wr), normal, speed));
+    speed.d[speed_variable] = 1;
+    const auto flux = area * numerical_flux(model, independent<6>(wl), constant<6>(wr), normal, speed);
+    out.left = by_state(flux);
+    out.speed = by_variable(flux, speed_variable);
+  }
+}
+
+void Linearisation::differentiate_boundary(const Reconstruction<Real>& reconstruction) {
+  constexpr int speed_variable = 5, wind_variable = 6;
+  using Number = Dual<9>;
+  const Subdomain& domain = discretization_.domain();
+  const Real gamma = discretization_.gamma();
+  Vec3Of<Number> wind;
+  for (int axis = 0; axis < 3; ++axis) {
+    wind[axis] = conditions_.free_stream[1 + axis];
+    wind[axis].d[wind_variable + axis] = 1;
+  }
+  const auto outside = free_stream(wind, gamma);
+  for (std::size_t i = 0; i < boundary_faces_.size(); ++i) {
+    const auto& face = domain.boundary_faces[i];
+    const Real area = norm(domain.boundary_normal[i]);
+    const Vec3 normal = (1 / area) * domain.boundary_normal[i];
+    const Vec3 center = domain.boundary_center[i];
+    Primitive<Real> w = flow_[face.cell];
+    BoundaryFace& out = boundary_faces_[i];
+    out.share = 0;
+    if (discretization_.space().order > 1) {
+      const auto carried = extrapolated(w, reconstruction[face.cell], center - domain.center[face.cell]);
+      out.share = usable_share(carried, w);
+      w += out.share * (carried - w);
+    }
+    const auto inside = independent<9>(w);
+    Number speed = conditions_.boundary_speed(i, center, normal);
+    speed.d[speed_variable] = 1;
+    const BoundaryKind kind = discretization_.kind_of(face);
+    const Number pressure = boundary_pressure(kind, inside, normal, speed, gamma);
+    const auto flux = area * (is_impermeable(kind) ? wall_flux(pressure, normal, speed)
+                                                   : far_field_flux(inside, outside, normal, speed, gamma));
+    out.inside = by_state(flux);
+    out.speed = by_variable(flux, speed_variable);
+    for (int axis = 0; axis < 3; ++axis)
+      out.wind[static_cast<std::size_t>(axis)] = by_variable(flux, wind_variable + axis);
+    for (int k = 0; k < 5; ++k) out.pressure[k] = pressure.d[k];
+    out.pressure_by_speed = pressure.d[speed_variable];
+  }
+}
+
+std::size_t Linearisation::bytes() const {
+  return slopes_.size() * sizeof(LimiterSlope) + faces_.size() * sizeof(Face) +
+         boundary_faces_.size() * sizeof(BoundaryFace);
+}
+
+}  // namespace alphadot

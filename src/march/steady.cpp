@@ -1,0 +1,118 @@
+#include "march/steady.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace alphadot {
+
+namespace {
+
+constexpr Real smallest_cfl = 1e-3;
+/// A residual that grows by more than this in one iteration, or in all, rejects the step.
+constexpr Real residual_leap = 5, residual_growth = 1e3;
+/// Iterations between linearisations: while the flow takes shape, and once it changes little.
+constexpr int early_jacobian_age = 4, late_jacobian_age = 10;
+constexpr Real early_orders = 2;
+/// Iterations of first order that follow a rejected step.
+constexpr int rescue_iterations = 20;
+constexpr int most_rejections = 6;
+/// The limiter is frozen once the flow has taken shape and so many iterations have not lowered the residual
+/// to this share of the lowest.
+constexpr int stalled_iterations = 20;
+constexpr Real stalled_orders = 1, little_progress = 0.8;
+
+/// Size of a density residual that is nothing but round-off: the mass flux through a mean face in double
+/// precision.
+Real round_off_residual(const ImplicitIteration& iteration, const Conditions<Real>& conditions) {
+  const Subdomain& domain = iteration.discretization().domain();
+  Real area2 = 0;
+  for (Index cell = 0; cell < domain.owned_cells; ++cell) area2 += std::pow(domain.volume[cell], 4.0 / 3);
+  const Real mean_area =
+      std::sqrt(iteration.communicator().sum(area2) / static_cast<Real>(domain.global_cells));
+  const Real speed = norm(velocity(conditions.free_stream) - conditions.grid.velocity);
+  return 1e-15 * mean_area * (1 + speed);
+}
+
+}  // namespace
+
+SteadyResult march_to_steady(ImplicitIteration& iteration, const Conditions<Real>& conditions,
+                             const SteadySettings& settings, int order,
+                             const std::function<bool(const SteadyProgress&)>& observer,
+                             const SteadyState& from) {
+  const bool resumed = from.iteration > 0;
+  const Real round_off = round_off_residual(iteration, conditions);
+  const Real freeze_orders = iteration.discretization().space().freeze_orders;
+  Real cfl = resumed ? from.cfl : settings.cfl_start;
+  int rescue = 0;  // iterations of first order that are left
+  int rejections = 0;
+  const auto evaluate = [&] {
+    iteration.evaluate(conditions, rescue > 0 ? 1 : order);
+    return iteration.report();
+  };
+  FlowReport report = evaluate();
+  const Real first = resumed ? from.first_residual : report.density_residual;
+  Real previous = resumed ? from.previous_residual : first;
+  Real lowest = resumed ? from.lowest_residual : first;
+  int lowest_at = from.lowest_at;
+  int jacobian_age = late_jacobian_age;
+  int count = from.iteration;
+  const auto orders = [&] { return std::log10(first / std::max(report.density_residual, 1e-300)); };
+  const auto is_steady = [&] {
+    return rescue == 0 && report.physical &&
+           (report.density_residual <= round_off || orders() >= settings.orders);
+  };
+  const auto jacobian_is_due = [&] {
+    return jacobian_age >= (orders() < early_orders ? early_jacobian_age : late_jacobian_age);
+  };
+  const auto limiter_is_due = [&] {
+    const bool stalled = count - lowest_at >= stalled_iterations && orders() >= stalled_orders;
+    return freeze_orders > 0 && rescue == 0 && (orders() >= freeze_orders || stalled);
+  };
+  const auto ended = [&](RunStatus status) { return SteadyResult{status, count, report, orders()}; };
+
+  if (is_steady()) return ended(RunStatus::converged);
+  while (count < settings.max_iterations) {
+    if (jacobian_is_due()) {
+      iteration.linearise(conditions, {.cfl = cfl});
+      jacobian_age = 0;
+    }
+    ++jacobian_age;
+    iteration.advance();
+    report = evaluate();
+    ++count;
+    if (!report.physical || report.density_residual > residual_leap * previous ||
+        report.density_residual > residual_growth * first) {
+      iteration.undo();
+      iteration.freeze_limiter(false);
+      cfl *= 0.1;
+      jacobian_age = late_jacobian_age;
+      if (++rejections > most_rejections || cfl < smallest_cfl) return ended(RunStatus::diverged);
+      rescue = rescue_iterations;
+      report = evaluate();
+      previous = report.density_residual;
+      continue;
+    }
+    previous = report.density_residual;
+    if (rescue > 0 && --rescue == 0) {
+      report = evaluate();  // the second-order residual is another one: no leap
+      previous = report.density_residual;
+    }
+    cfl = std::min(cfl * settings.cfl_growth, settings.cfl_max);
+    if (rescue > 0 || previous < little_progress * lowest) {
+      lowest = previous;
+      lowest_at = count;
+    }
+    if (limiter_is_due()) iteration.freeze_limiter(true);
+    const bool go_on = observer({count,
+                                 cfl,
+                                 orders(),
+                                 report,
+                                 {count, cfl, first, previous, lowest, lowest_at},
+                                 jacobian_is_due() && rescue == 0});
+    if (is_steady()) return ended(RunStatus::converged);
+    if (!go_on) return ended(RunStatus::interrupted);
+  }
+  return ended(RunStatus::completed);
+}
+
+}  // namespace alphadot

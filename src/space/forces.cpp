@@ -1,0 +1,46 @@
+#include "space/forces.hpp"
+
+namespace alphadot {
+
+std::vector<Real> numbers_of(std::span<const Load> loads) {
+  std::vector<Real> out;
+  out.reserve(6 * loads.size());
+  for (const Load& load : loads)
+    for (const Vec3& part : {load.force, load.moment}) out.insert(out.end(), {part.x, part.y, part.z});
+  return out;
+}
+
+std::vector<Load> loads_of(std::span<const Real> numbers) {
+  std::vector<Load> out;
+  for (auto n = numbers.begin(); n != numbers.end(); n += 6)
+    out.push_back({{n[0], n[1], n[2]}, {n[3], n[4], n[5]}});
+  return out;
+}
+
+Load total_of(std::span<const Load> loads) {
+  Load out;
+  for (const Load& load : loads) out += load;
+  return out;
+}
+
+std::vector<Load> wall_loads(const Discretization& discretization, std::span<const Real> excess_pressures,
+                             const Vec3& center) {
+  const Subdomain& domain = discretization.domain();
+  std::vector<Load> loads(domain.patch_names.size());
+  for (std::size_t i = 0; i < domain.boundary_faces.size(); ++i) {
+    const auto& face = domain.boundary_faces[i];
+    if (discretization.kind_of(face) != BoundaryKind::wall) continue;
+    const Vec3 force = excess_pressures[i] * domain.boundary_normal[i];
+    loads[face.patch] += Load{force, cross(domain.boundary_center[i] - center, force)};
+  }
+  return loads;
+}
+
+std::vector<Load> wall_loads(const Discretization& discretization, const Residual<Real>& residual,
+                             const Vec3& center) {
+  std::vector<Real> excess(residual.boundary_pressures().begin(), residual.boundary_pressures().end());
+  for (Real& pressure : excess) pressure -= 1 / discretization.gamma();
+  return wall_loads(discretization, excess, center);
+}
+
+}  // namespace alphadot

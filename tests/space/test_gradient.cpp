@@ -1,0 +1,148 @@
+// Reconstruction. Expectations: least squares is exact for linear fields; Barth & Jespersen's limiter makes
+// no new extrema on faces.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "space/reconstruction.hpp"
+#include "support/box_case.hpp"
+
+namespace alphadot {
+namespace {
+
+using namespace testing_support;
+
+constexpr Real round_off = 1e-12;  // slopes of order one over spacings of a quarter, fits of 60 cells
+
+Vec3 slope_of(int i) {
+  return {1.0 - 0.3 * i, 0.5 * i - 0.7, 0.2 + 0.1 * i * i};
+}
+Primitive<Real> linear_state(const Vec3& x) {
+  Primitive<Real> w;
+  for (int i = 0; i < 5; ++i) w[i] = 10 + i + dot(slope_of(i), x);
+  return w;
+}
+
+struct Gradients {
+  Gradients(const BoxSides& sides, LimiterKind limiter)
+      : box(small_box(), sides, {.limiter = limiter}, Communicator()),
+        flow(box.domain, box.comm),
+        reconstruction(box.discretization, box.comm) {}
+
+  template <class State>
+  void reconstruct(State&& state) {
+    fill(flow, box.domain, state);
+    flow.start_exchange();
+    reconstruction.update(flow);
+    reconstruction.start_exchange();
+    reconstruction.finish_exchange();
+  }
+
+  BoxCase box;
+  FlowField<Real> flow;
+  Reconstruction<Real> reconstruction;
+};
+
+void expect_linear(const Gradient<Real>& gradient) {
+  for (int i = 0; i < 5; ++i)
+    for (int axis = 0; axis < 3; ++axis) EXPECT_NEAR(gradient.along[axis][i], slope_of(i)[axis], round_off);
+}
+
+// Up to the boundary and in the ghosts across cut faces, which receive their owners' gradients.
+TEST(Gradient, IsExactForLinearFields) {
+  Gradients g(open_box(), LimiterKind::none);
+  g.reconstruct([](const Vec3& x, GlobalIndex) { return linear_state(x); });
+  for (Index cell = 0; cell < g.box.domain.owned_cells; ++cell) expect_linear(g.reconstruction[cell]);
+  for (const auto& neighbour : g.box.domain.neighbours)
+    for (Index i = 0; i < neighbour.ghost_face_count; ++i)
+      expect_linear(g.reconstruction[neighbour.ghost_begin + i]);
+}
+
+TEST(Gradient, CarriesLinearStatesToFacesExactly) {
+  Gradients g(open_box(), LimiterKind::none);
+  g.reconstruct([](const Vec3& x, GlobalIndex) { return linear_state(x); });
+  const Subdomain& domain = g.box.domain;
+  for (std::size_t face = 0; face < domain.faces.size(); ++face)
+    for (const Index cell : {domain.faces[face].left, domain.faces[face].right}) {
+      const Vec3 at = domain.face_center[face];
+      const auto found = extrapolated(g.flow[cell], g.reconstruction[cell], at - domain.center[cell]);
+      for (int i = 0; i < 5; ++i) EXPECT_NEAR(found[i], linear_state(at)[i], round_off);
+    }
+}
+
+// Cells in the edges between two walls are held at first order, all others are exact.
+TEST(Gradient, VanishesInCellsWithTwoWallsOnly) {
+  Gradients g(channel(), LimiterKind::none);
+  g.reconstruct([](const Vec3& x, GlobalIndex) { return linear_state(x); });
+  const Subdomain& domain = g.box.domain;
+  std::vector<int> walls(g.box.cells(), 0);
+  for (const auto& face : domain.boundary_faces)
+    if (g.box.discretization.kind_of(face) == BoundaryKind::wall) ++walls[face.cell];
+  Index flat = 0;
+  for (Index cell = 0; cell < domain.owned_cells; ++cell) {
+    if (walls[cell] < 2) {
+      expect_linear(g.reconstruction[cell]);
+      continue;
+    }
+    ++flat;
+    for (const auto& along : g.reconstruction[cell].along)
+      for (int i = 0; i < 5; ++i) EXPECT_EQ(along[i], 0);
+  }
+  EXPECT_EQ(g.box.discretization.flat_cells(), flat);
+  EXPECT_GT(g.box.comm.sum(static_cast<GlobalIndex>(flat)), 0);
+}
+
+// By brute force over the cells around the points of each cell.
+TEST(BarthJespersen, MakesNoNewExtremaOnFaces) {
+  Gradients g(open_box(), LimiterKind::barth_jespersen);
+  g.reconstruct(rough_state);
+  const Subdomain& domain = g.box.domain;
+  const auto expect_within = [&](Index cell, const Vec3& at) {
+    const auto found = extrapolated(g.flow[cell], g.reconstruction[cell], at - domain.center[cell]);
+    for (int i = 0; i < 5; ++i) {
+      Real lowest = std::numeric_limits<Real>::max(), highest = -lowest;
+      for (const Index point : domain.cell_points[cell])
+        for (const Index other : domain.point_cells[point]) {
+          lowest = std::min(lowest, g.flow[other][i]);
+          highest = std::max(highest, g.flow[other][i]);
+        }
+      EXPECT_GE(found[i], lowest - 1e-14);
+      EXPECT_LE(found[i], highest + 1e-14);
+    }
+  };
+  for (std::size_t face = 0; face < domain.faces.size(); ++face)
+    for (const Index cell : {domain.faces[face].left, domain.faces[face].right})
+      if (cell < domain.owned_cells) expect_within(cell, domain.face_center[face]);
+  for (std::size_t i = 0; i < domain.boundary_faces.size(); ++i)
+    expect_within(domain.boundary_faces[i].cell, domain.boundary_center[i]);
+}
+
+// Every limiter multiplies a component of the unlimited gradient by one factor in [0, 1] per variable.
+TEST(Limiters, ShortenTheGradientAlongItself) {
+  Gradients free(open_box(), LimiterKind::none);
+  free.reconstruct(rough_state);
+  for (const LimiterKind limiter : {LimiterKind::venkatakrishnan, LimiterKind::barth_jespersen}) {
+    Gradients limited(open_box(), limiter);
+    limited.reconstruct(rough_state);
+    GlobalIndex shortened = 0;
+    for (Index cell = 0; cell < free.box.domain.owned_cells; ++cell)
+      for (int i = 0; i < 5; ++i) {
+        const auto part = [&](const Gradients& g) {
+          const auto& along = g.reconstruction[cell].along;
+          return Vec3{along[0][i], along[1][i], along[2][i]};
+        };
+        const Vec3 a = part(free), b = part(limited);
+        EXPECT_NEAR(norm(cross(a, b)), 0, 1e-12);
+        EXPECT_GE(dot(a, b), 0);
+        EXPECT_LE(norm(b), norm(a) * (1 + 1e-14));
+        if (norm(b) < 0.9 * norm(a)) ++shortened;
+      }
+    // Jumps of a few per cent from cell to cell are what Barth & Jespersen's limiter is for.
+    const GlobalIndex everywhere = free.box.comm.sum(shortened);
+    EXPECT_TRUE(everywhere > 0 || limiter == LimiterKind::venkatakrishnan);
+  }
+}
+
+}  // namespace
+}  // namespace alphadot
