@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Mesh of a sharp circular cone of 10 degrees half-angle with a blunt base, in a conical supersonic far field.
+"""Mesh of a sharp circular cone with a blunt base, in a conical supersonic far field.
 
 Lengths are in cone lengths; x aft from the apex, y starboard, z up. gmsh meshes the quarter y, z >= 0; the half and full models
 are its exact mirror images. The flow is conical, and so is the mesh: cells grow in proportion to the distance from the apex.
@@ -8,7 +8,7 @@ are its exact mirror images. The flow is conical, and so is the mesh: cells grow
 from __future__ import annotations
 
 import argparse
-import csv
+import functools
 import math
 import sys
 from pathlib import Path
@@ -21,10 +21,10 @@ try:
     import numpy as np
 
     import meshing
+    from exact import NoExactFlow, cone
 except ImportError as error:
     sys.exit(f"mesh.py: {error}; install the Debian packages python3-gmsh and python3-numpy and run with /usr/bin/python3")
 
-SLOPE = math.tan(math.radians(10.0))  # also the radius of the base
 # Cell size h on the surface, relative to the distance from the apex. The half model has about 10, 30, 100, 250 and 700 thousand
 # tetrahedra.
 LEVELS = {"tiny": 0.0705, "small": 0.0435, "coarse": 0.029, "medium": 0.0206, "fine": 0.0147}
@@ -36,21 +36,21 @@ FAR_START, FAR_RADIUS, FAR_END = -0.05, 0.03, 1.12
 MARGIN = 6.0  # degrees between the shock at zero incidence and the far field
 
 
-def shock_angle(mach: float) -> float:
-    """Shock angle at zero incidence in degrees, between the exact values of the reference file (from above: it is convex)."""
-    with open(HERE / "reference" / "exact_cone_steady.csv") as file:
-        rows = list(csv.DictReader(line for line in file if not line.startswith("#")))
-    known = np.array([(float(row["Mach"]), float(row["shock_angle_deg"])) for row in rows])
-    if not known[0, 0] <= mach <= known[-1, 0]:
-        raise meshing.MeshError(f"--mach {mach} is outside {known[0, 0]} to {known[-1, 0]}")
-    return float(np.interp(mach, *known.T))
+def shock_angle(half_angle: float, mach: float) -> float:
+    """Exact, at zero incidence; degrees."""
+    if not 2.0 <= half_angle <= 30.0:
+        raise meshing.MeshError(f"--half-angle {half_angle} is outside 2 to 30")
+    try:
+        return cone.steady(half_angle, mach).shock_angle
+    except NoExactFlow as error:
+        raise meshing.MeshError(str(error)) from None
 
 
-def build_quarter(far_angle: float, h: float) -> None:
-    """Make the fluid of the quarter y, z >= 0 the current gmsh model (OpenCASCADE); the angle is in degrees."""
+def build_quarter(slope: float, far_angle: float, h: float) -> None:
+    """Make the fluid of the quarter y, z >= 0 the current gmsh model (OpenCASCADE); `slope` of the cone, the angle in degrees."""
     occ = gmsh.model.occ
     far_radius = FAR_RADIUS + (FAR_END - FAR_START) * math.tan(math.radians(far_angle))
-    profile = [(0.0, 0.0), (TIP, TIP * SLOPE), (1.0, SLOPE), (1.0, 0.0), (FAR_END, 0.0), (FAR_END, far_radius),
+    profile = [(0.0, 0.0), (TIP, TIP * slope), (1.0, slope), (1.0, 0.0), (FAR_END, 0.0), (FAR_END, far_radius),
                (FAR_START, FAR_RADIUS), (FAR_START, 0.0)]  # fmt: skip
     points = [occ.addPoint(x, r, 0.0) for x, r in profile]
     lines = [occ.addLine(a, b) for a, b in zip(points, points[1:] + points[:1])]
@@ -58,16 +58,16 @@ def build_quarter(far_angle: float, h: float) -> None:
     _, tip, body, *_ = (tag for dimension, tag in occ.revolve([(2, face)], 0, 0, 0, 1, 0, 0, math.pi / 2) if dimension == 2)
     occ.synchronize()
     gmsh.model.mesh.setAlgorithm(2, tip, 1)  # MeshAdapt: the others leave needles at the apex
-    align(body, h)
+    align(body, slope, h)
 
 
-def align(body: int, h: float) -> None:
+def align(body: int, slope: float, h: float) -> None:
     """Make gmsh lay a structured mesh, with rows of points along the generators, on the face of the cone behind the tip.
 
     Triangles with an edge on a generator are facets of a pyramid, which is conical too. Others are tilted up and down along the
     stream in turn, and the pressure on them scatters.
     """
-    rows, columns = math.ceil(-math.log(TIP) / h), math.ceil(0.5 * math.pi * SLOPE / h)
+    rows, columns = math.ceil(-math.log(TIP) / h), math.ceil(0.5 * math.pi * slope / h)
     for _, curve in gmsh.model.getBoundary([(2, body)], oriented=False):
         if gmsh.model.getType(1, curve) == "Line":
             (_, first), (_, last) = gmsh.model.getBoundary([(1, curve)])
@@ -78,24 +78,24 @@ def align(body: int, h: float) -> None:
     gmsh.model.mesh.setTransfiniteSurface(body, "Alternate")
 
 
-def size_field(h: float, shock: float) -> meshing.SizeField:
+def size_field(slope: float, h: float, shock: float) -> meshing.SizeField:
     """The cell size wanted at a point, in cone lengths; proportional to h. `shock`: its angle in degrees."""
     last = math.tan(math.radians(shock))
 
     def size(_dimension: int, _tag: int, x: float, y: float, z: float) -> float:
         r = math.hypot(y, z)
-        across = r - SLOPE * x if x > 0.0 else r
+        across = r - slope * x if x > 0.0 else r
         # The last wave that still reaches the base comes in less steep than the shock: nothing matters beyond.
-        late = max(x - 1.0 + max(r - SLOPE, 0.0) / last, 0.0)
+        late = max(x - 1.0 + max(r - slope, 0.0) / last, 0.0)
         return h * min(max(math.hypot(x, r), TIP) + GROWTH * max(across, 0.0) + 12.0 * late, 6.0)
 
     return size
 
 
-def patch_name(points: np.ndarray) -> str:
+def patch_name(slope: float, points: np.ndarray) -> str:
     """The patch of a CAD face, from all its mesh points (n, 3)."""
     x, y, z = points.T
-    residuals = {"symmetry_y": y, "symmetry_z": z, "body": np.hypot(y, z) - SLOPE * x, "base": x - 1.0}
+    residuals = {"symmetry_y": y, "symmetry_z": z, "body": np.hypot(y, z) - slope * x, "base": x - 1.0}
     return next((name for name, residual in residuals.items() if np.all(np.abs(residual) < 1e-7)), "farfield")
 
 
@@ -119,21 +119,23 @@ def compensate_chords(mesh: meshing.TetMesh) -> None:
 
 def build(h: float, arguments: argparse.Namespace) -> tuple[meshing.TetMesh, list[str]]:
     """The mesh, and lines that compare its patches with the exact cone."""
-    shock = shock_angle(arguments.mach)
+    shock = shock_angle(arguments.half_angle, arguments.mach)
+    slope = math.tan(math.radians(arguments.half_angle))  # also the radius of the base
     gmsh.model.add("quarter")
-    build_quarter(shock + MARGIN, h)
-    quarter = meshing.mesh_quarter(size_field(h, shock), patch_name)
+    build_quarter(slope, shock + MARGIN, h)
+    quarter = meshing.mesh_quarter(size_field(slope, h, shock), functools.partial(patch_name, slope))
     compensate_chords(quarter)
     mesh, symmetry = meshing.unfolded(quarter, arguments.model)
     share = meshing.MODELS[arguments.model]
-    exact = {"body": share * math.pi * SLOPE * math.hypot(1.0, SLOPE), "base": share * math.pi * SLOPE**2}
+    exact = {"body": share * math.pi * slope * math.hypot(1.0, slope), "base": share * math.pi * slope**2}
     return mesh, meshing.patch_report(mesh, exact) + symmetry
 
 
 def main() -> None:
     parser = meshing.command_line(__doc__, LEVELS, "cone length")
     parser.add_argument("--model", choices=meshing.MODELS, default="half", help="half is y >= 0 (default)")
-    parser.add_argument("--mach", type=float, default=1.58, help="the lowest Mach number for this mesh, 1.58 (default) to 3")
+    parser.add_argument("--half-angle", type=float, default=10.0, metavar="DEG", help="of the cone, 2 to 30; 10 by default")
+    parser.add_argument("--mach", type=float, default=1.58, help="the lowest Mach number for this mesh; 1.58 by default")
     meshing.run(parser, LEVELS, build)
 
 
