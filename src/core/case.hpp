@@ -86,7 +86,7 @@ struct UnsteadySettings {
 /// How the linear systems behind the stability derivatives are solved.
 struct DerivativeSettings {
   SensitivityMethod method = SensitivityMethod::gmres;
-  Real orders = 3;      ///< decades that the preconditioned residual must drop
+  Real orders = 3;      ///< decades that the residual must drop
   int directions = 80;  ///< of the Krylov space before it begins anew
   int max_iterations = 300;
   bool second_order = false;         ///< also with respect to the second time derivatives of alpha and beta

@@ -6,6 +6,7 @@
 
 #include "core/dual.hpp"
 #include "core/error.hpp"
+#include "linear/cell_scaling.hpp"
 #include "linear/krylov_basis.hpp"
 
 namespace alphadot {
@@ -14,7 +15,12 @@ namespace {
 
 using States = std::vector<Primitive<Real>>;
 
-constexpr Real linear_cfl = 1e8;  // no time term: the preconditioner is the plain Jacobian
+/// CFL numbers of the preconditioner's time term: none to speak of, and what damps it where its passes over
+/// the plain Jacobian would grow in some cells.
+constexpr std::array linear_cfl{1e8, 1e3, 1e2, 1e1, 1.0};
+/// A system whose defect so many iterations have not brought below this share of itself stalls.
+constexpr std::size_t stalled_iterations = 10;
+constexpr Real stalled_share = 0.7;
 
 /// Adds V (dU/dW) w to `image`: the change of the conserved state that goes with a change w of the primitive
 /// one.
@@ -46,6 +52,14 @@ struct Record {
   std::vector<std::vector<Real>> loads;
   std::vector<Real> norms;
   Real drop() const { return norms.back() / std::max(norms.front(), Real{1e-300}); }
+  bool has_stalled() const {
+    return norms.size() > stalled_iterations &&
+           !(norms.back() < stalled_share * norms[norms.size() - 1 - stalled_iterations]);
+  }
+  void drop_latest() {
+    loads.pop_back();
+    norms.pop_back();
+  }
 };
 
 /// Error that the latest changes leave when they go on to shrink as the residual did over the last
@@ -67,7 +81,31 @@ Load remaining_error(const Record& record, const std::vector<Load>& totals) {
   return rate / (1 - rate) * change;
 }
 
-/// N problems solved in lockstep: every application of the tangent serves all of them.
+/// The implicit scheme as the preconditioner of the linear solves, as bold as the flow lets it be.
+class Preconditioner {
+ public:
+  Preconditioner(ImplicitIteration& iteration, const Conditions<Real>& conditions)
+      : iteration_(iteration), conditions_(conditions) {
+    linearise(0);
+  }
+  bool can_be_damped() const { return level_ + 1 < linear_cfl.size(); }
+  /// Gives it more of a time term.
+  void damp() { linearise(level_ + 1); }
+  void solve(std::span<const LinearSystem> systems) { scheme().solve(systems); }
+
+ private:
+  LinearSolver& scheme() { return iteration_.linear_solver().preconditioner(); }
+  void linearise(std::size_t level) {
+    level_ = level;
+    scheme().linearise(iteration_.flow(), conditions_, {.cfl = linear_cfl[level]});
+  }
+
+  ImplicitIteration& iteration_;
+  const Conditions<Real>& conditions_;
+  std::size_t level_ = 0;
+};
+
+/// N problems solved together: every application of the tangent serves all of them.
 template <int N>
 class BlockGmres {
  public:
@@ -81,20 +119,20 @@ class BlockGmres {
         space_(static_cast<std::size_t>(iteration.discretization().domain().owned_cells), settings.directions,
                [this](std::vector<Real>& numbers) { iteration_.sum(numbers); }),
         go_on_(go_on),
+        scaling_(iteration.discretization(), iteration.flow(), linearisation.conditions()),
+        preconditioner_(iteration, linearisation.conditions()),
         tangent_(linearisation, iteration.moment_center()) {
     const auto cells = static_cast<std::size_t>(iteration.discretization().domain().owned_cells);
     for (std::size_t k = 0; k < N; ++k) {
       results_[k].name = problems[k].name;
-      results_[k].field.resize(cells);
-      images_[k].resize(cells);
-      corrections_[k].resize(cells);
-      products_[k].resize(cells);
+      for (States* array : {&results_[k].field, &images_[k], &corrections_[k], &defects_[k]})
+        array->resize(cells);
     }
   }
 
   /// Nothing when it was stopped.
   std::optional<std::array<Sensitivity, N>> solve() {
-    evaluate();
+    evaluate(true);
     if (settings_.method == SensitivityMethod::march)
       march();
     else
@@ -105,42 +143,50 @@ class BlockGmres {
   }
 
  private:
-  /// corrections_ = -P^-1 (A U + b) of all problems at their present fields; loads and norms into the
-  /// records.
-  void evaluate() {
+  /// The defects D (A U + b) of all problems at their present fields; loads and norms into the records, of a
+  /// further iteration or, since those of a Krylov space are carried along, in place of the latest.
+  void evaluate(bool is_further) {
     typename Tangent<N>::Fields fields;
     std::array<ConditionsChange, N> changes;
     for (std::size_t k = 0; k < N; ++k) {
       fields[k] = results_[k].field;
       changes[k] = problems_[k].change;
     }
-    tangent_.apply(fields, changes, spans());
+    tangent_.apply(fields, changes, spans(images_));
     for (std::size_t k = 0; k < N; ++k)
       if (!problems_[k].rate.empty()) add_mass_term(iteration_, problems_[k].rate, images_[k]);
-    precondition(corrections_);
     const auto loads = tangent_.loads();
-    for (std::size_t k = 0; k < N; ++k) records_[k].loads.push_back(numbers_of(loads[k]));
-    record_norms();
-  }
-
-  void record_norms() {
+    for (std::size_t k = 0; k < N; ++k) {
+      scaling_.scale(images_[k], defects_[k]);
+      if (!is_further) records_[k].drop_latest();
+      records_[k].loads.push_back(numbers_of(loads[k]));
+    }
     std::vector<Real> squares;
-    for (const auto& correction : corrections_) squares.push_back(square(correction));
+    for (const auto& defect : defects_) squares.push_back(square(defect));
     iteration_.sum(squares);
-    for (std::size_t k = 0; k < N; ++k) records_[k].norms.push_back(std::sqrt(squares[k]));
+    for (std::size_t k = 0; k < N; ++k) add_norm(k, std::sqrt(squares[k]));
   }
 
-  typename Tangent<N>::Images spans() {
-    typename Tangent<N>::Images out;
-    for (std::size_t k = 0; k < N; ++k) out[k] = images_[k];
+  void add_norm(std::size_t k, Real norm) {
+    records_[k].norms.push_back(norm);
+    if (!std::isfinite(norm))
+      throw DivergedError("the linear solve for " + problems_[k].name + " came to a norm that is no number");
+  }
+
+  static std::array<std::span<Conserved<Real>>, N> spans(std::array<States, N>& arrays) {
+    std::array<std::span<Conserved<Real>>, N> out;
+    for (std::size_t k = 0; k < N; ++k) out[k] = arrays[k];
     return out;
   }
 
-  /// out = -P^-1 images_.
-  void precondition(std::array<States, N>& out) {
+  /// corrections_ = -P^-1 (A U + b), from the defects; images_ serves as a buffer.
+  void precondition() {
     std::array<LinearSystem, N> systems;
-    for (std::size_t k = 0; k < N; ++k) systems[k] = {images_[k], out[k]};
-    iteration_.linear_solver().preconditioner().solve(systems);
+    for (std::size_t k = 0; k < N; ++k) {
+      scaling_.unscale(defects_[k], images_[k]);
+      systems[k] = {images_[k], corrections_[k]};
+    }
+    preconditioner_.solve(systems);
   }
 
   bool all_dropped(Real share) const {
@@ -152,19 +198,28 @@ class BlockGmres {
     return out;
   }
 
-  /// U += -P^-1 (A U + b) until it is steady.
+  /// U += -P^-1 (A U + b) until it is steady; from the start again with a gentler preconditioner where that
+  /// grows.
   void march() {
+    constexpr Real grown = 10;
     for (int count = 1; count <= settings_.max_iterations && !all_dropped(target_); ++count) {
+      precondition();
       for (std::size_t k = 0; k < N; ++k) {
         ++results_[k].iterations;
         for (std::size_t i = 0; i < corrections_[k].size(); ++i) results_[k].field[i] += corrections_[k][i];
       }
-      evaluate();
-      for (std::size_t k = 0; k < N; ++k)
-        if (!(records_[k].drop() < 1e6))
-          throw DivergedError("the march of the response to " + problems_[k].name +
-                              " grows: the steady state hides an unstable cell");
+      evaluate(true);
       if (is_stopped()) return;
+      const auto growing = std::ranges::find_if(records_, [](const Record& r) { return r.drop() > grown; });
+      if (growing == records_.end()) continue;
+      if (!preconditioner_.can_be_damped())
+        throw DivergedError("the march of the response to " +
+                            problems_[static_cast<std::size_t>(growing - records_.begin())].name +
+                            " grows: the steady state hides an unstable cell");
+      preconditioner_.damp();
+      for (auto& result : results_) std::ranges::fill(result.field, Primitive<Real>{});
+      for (auto& record : records_) record = {};
+      evaluate(true);
     }
   }
 
@@ -173,41 +228,50 @@ class BlockGmres {
     return is_stopped_;
   }
 
-  /// Every iteration looks along the present corrections, in all problems along those of all.
+  /// Every iteration looks along what the preconditioner makes of the present defects, in all problems along
+  /// the directions of all.
   void gmres() {
     constexpr Real single_precision = 1e-5;  // what directions kept as such can reduce a residual by
-    for (int used = 0; used < settings_.max_iterations && !all_dropped(target_);) {
-      if (used > 0) evaluate();
+    for (int used = 0, at_level = 0; used < settings_.max_iterations && !all_dropped(target_);) {
       if (space_.is_full()) space_.clear();
       const Real cycle_start = largest_norm();
       std::vector<KrylovBasis::System> searches;
-      for (std::size_t k = 0; k < N; ++k)
-        searches.push_back({corrections_[k], records_[k].loads.back(), {}, 0});
-      while (used < settings_.max_iterations && !space_.is_full() && !all_dropped(target_) &&
+      for (std::size_t k = 0; k < N; ++k) searches.push_back({defects_[k], records_[k].loads.back(), {}, 0});
+      bool stalls = false;
+      while (used < settings_.max_iterations && !space_.is_full() && !all_dropped(target_) && !stalls &&
              largest_norm() > single_precision * cycle_start) {
         widen_space();
         space_.reduce(searches);
         for (std::size_t k = 0; k < N; ++k) {
           records_[k].loads.push_back(searches[k].functionals);
-          records_[k].norms.push_back(searches[k].norm);
+          add_norm(k, searches[k].norm);
           ++results_[k].iterations;
         }
-        ++used;
+        ++used, ++at_level;
         if (is_stopped()) return;
+        stalls = at_level >= static_cast<int>(stalled_iterations) && preconditioner_.can_be_damped() &&
+                 std::ranges::any_of(records_, &Record::has_stalled);
       }
       for (std::size_t k = 0; k < N; ++k) space_.move(results_[k].field, searches[k].shares);
+      if (stalls) {
+        preconditioner_.damp();
+        at_level = 0;
+      }
+      evaluate(false);
     }
   }
 
   void widen_space() {
+    precondition();
     typename Tangent<N>::Fields fields;
     for (std::size_t k = 0; k < N; ++k) fields[k] = corrections_[k];
-    tangent_.apply(fields, {}, spans());
+    tangent_.apply(fields, {}, spans(images_));
     const auto loads = tangent_.loads();
-    precondition(products_);
     std::vector<KrylovBasis::Candidate> candidates;
-    for (std::size_t k = 0; k < N; ++k)
-      candidates.push_back({corrections_[k], products_[k], numbers_of(loads[k])});
+    for (std::size_t k = 0; k < N; ++k) {
+      scaling_.scale(images_[k], images_[k]);
+      candidates.push_back({corrections_[k], images_[k], numbers_of(loads[k])});
+    }
     space_.add(candidates);
   }
 
@@ -231,11 +295,12 @@ class BlockGmres {
   const std::function<bool()>& go_on_;
   bool is_stopped_ = false;
   Real target_ = std::pow(10.0, -settings_.orders);
+  CellScaling scaling_;
+  Preconditioner preconditioner_;
   Tangent<N> tangent_;
   std::array<Sensitivity, N> results_;
   std::array<Record, N> records_;
-  std::array<std::vector<Conserved<Real>>, N> images_;
-  std::array<States, N> corrections_, products_;
+  std::array<States, N> images_, corrections_, defects_;
 };
 
 /// About the flow with its limiter free, as it is in a motion.
@@ -269,9 +334,7 @@ SensitivitySolver::SensitivitySolver(ImplicitIteration& iteration, const Conditi
     : iteration_(iteration),
       linearisation_(linearisation_of(iteration, conditions)),
       settings_(settings),
-      go_on_(std::move(go_on)) {
-  iteration.linear_solver().preconditioner().linearise(iteration.flow(), conditions, {.cfl = linear_cfl});
-}
+      go_on_(std::move(go_on)) {}
 
 std::vector<Sensitivity> SensitivitySolver::solve(const std::vector<SensitivityProblem>& problems) {
   std::vector<Sensitivity> out;

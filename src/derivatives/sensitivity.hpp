@@ -28,7 +28,7 @@ struct Sensitivity {
   std::vector<Load> loads;             ///< change of the load of every patch, over all ranks
   Load total;
   Load total_error;  ///< how far the total may be from that of the exact solution of the linear problem
-  Real relative_residual = 1;  ///< |P^-1 (A U + b)| / |P^-1 b| with the preconditioner P
+  Real relative_residual = 1;  ///< |D (A U + b)| / |D b|, D as in cell_scaling.hpp
   int iterations = 0;
 };
 

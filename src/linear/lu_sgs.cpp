@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/dual.hpp"
 #include "space/wave_speed.hpp"
 
 namespace alphadot {
@@ -53,9 +54,14 @@ Conserved<Real> LuSgs::off_diagonal(Index row) const {
     const Real half = left == row ? 0.5 : -0.5;
     const Real swept = conditions_.face_sweep(face, domain.face_center[face], area);
     const auto& w = (*flow_)[other];
-    const auto changed = w + primitive_change(w, du, gamma);
-    sum += half * (physical_flux(changed, area, swept, gamma) - physical_flux(w, area, swept, gamma)) -
-           face_wave_[face] * du;
+    const auto dw = primitive_change(w, du, gamma);
+    Primitive<Dual<1>> changing;
+    for (int i = 0; i < 5; ++i) {
+      changing[i] = w[i];
+      changing[i].d[0] = dw[i];
+    }
+    const auto flux = physical_flux(changing, area, Dual<1>(swept), gamma);
+    for (int i = 0; i < 5; ++i) sum[i] += half * flux[i].d[0] - face_wave_[face] * du[i];
   }
   return sum;
 }
