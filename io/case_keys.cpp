@@ -97,7 +97,8 @@ std::vector<CaseKey> make_keys() {
       .key("order", &SpaceSettings::order, IntegerValue{.from = 1, .to = 2}, "order of accuracy in space")
       .key("gradient", &SpaceSettings::gradient, WordValue{words_of<GradientKind>}, "gradient of a cell")
       .key("limiter", &SpaceSettings::limiter, WordValue{words_of<LimiterKind>}, "limiter of the gradient")
-      .key("limiter_k", &SpaceSettings::limiter_k, positive, "Venkatakrishnan's K")
+      .key("limiter_threshold", &SpaceSettings::limiter_threshold, NumberValue{.from = 1e-6, .to = 10},
+           "share of a cell's own density, speed of sound and pressure up to which changes pass the limiter")
       .key(
           "freeze_orders", &SpaceSettings::freeze_orders, NumberValue{.from = 0, .to = 16},
           "decades of residual after which the limiter is frozen, or before where the march stalls; 0: never")

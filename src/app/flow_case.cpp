@@ -65,6 +65,16 @@ SteadySettings gentler(SteadySettings settings, std::size_t attempt) {
   return settings;
 }
 
+constexpr std::size_t named_in_message = 3;
+
+/// "cell 7 at (1, 2, 3), cell 8 at ..."
+std::string named(std::span<const SuspectCell> cells) {
+  std::vector<std::string> out;
+  for (const auto& [id, at, change] : cells)
+    out.push_back(fmt::format("cell {} at ({:.5g}, {:.5g}, {:.5g})", id, at.x, at.y, at.z));
+  return fmt::format("{}", fmt::join(out, ", "));
+}
+
 }  // namespace
 
 NamedValues named(const Coefficients& coefficients) {
@@ -164,6 +174,7 @@ CheckpointHead FlowCase::steady_head(std::string phase) const {
   out.numbers["residuals"] = {steady_state_.first_residual, steady_state_.previous_residual};
   out.numbers["lowest_residual"] = {steady_state_.lowest_residual,
                                     static_cast<Real>(steady_state_.lowest_at)};
+  out.numbers["load_range"] = numbers_of(std::array{steady_state_.least, steady_state_.most});
   return out;
 }
 
@@ -177,12 +188,15 @@ RunStatus FlowCase::march() {
   if (restart) {
     const auto& numbers = restart->numbers;
     steady_attempt_ = static_cast<std::size_t>(numbers.at("attempt").at(0));
+    const auto range = loads_of(numbers.at("load_range"));
     steady_state_ = {static_cast<int>(numbers.at("iteration").at(0)),
                      numbers.at("cfl").at(0),
                      numbers.at("residuals").at(0),
                      numbers.at("residuals").at(1),
                      numbers.at("lowest_residual").at(0),
-                     static_cast<int>(numbers.at("lowest_residual").at(1))};
+                     static_cast<int>(numbers.at("lowest_residual").at(1)),
+                     range.at(0),
+                     range.at(1)};
     restore();
   } else {
     iteration_.set_uniform(now.free_stream);
@@ -221,6 +235,7 @@ RunStatus FlowCase::march() {
   steady_wall_ = timer.wall();
   steady_cpu_ = timer.cpu();
   steady_report_ = result.report;
+  steady_orders_ = result.free_orders;
   if (result.status == RunStatus::interrupted) message_ = checkpoints_.stop_reason();
   if (const auto& report = result.report; report.positivity_cells + report.positivity_faces > 0)
     spdlog::info(
@@ -233,6 +248,11 @@ RunStatus FlowCase::march() {
   if (result.status == RunStatus::completed) {
     message_ = fmt::format("the residual dropped {:.1f} of {} decades in {} iterations", result.orders,
                            settings().steady.orders, result.iterations);
+    if (result.has_stalled)
+      message_ += fmt::format(" and falls no more; meanwhile CN goes to and fro by {:.1e}, Cm by {:.1e}",
+                              coefficients(result.swing, settings()).CN,
+                              std::abs(coefficients(result.swing, settings()).Cm));
+    message_ += "; worst: " + named(iteration_.worst_cells(named_in_message));
     spdlog::warn("{}", message_);
   }
   if (steady_state_.iteration > saved) save(steady_head("steady"));
@@ -240,19 +260,15 @@ RunStatus FlowCase::march() {
 }
 
 void FlowCase::report_divergence(const DivergedError& error) {
-  constexpr std::size_t listed = 50, named_in_message = 3;
+  constexpr std::size_t listed = 50;
   const auto cells = iteration_.worst_cells(listed);
   std::string table =
       "# cells whose density changes fastest, worst first; 1e300: the residual is not a number\n"
       "cell,x,y,z,change\n";
-  message_ = error.what();
-  for (std::size_t i = 0; i < cells.size(); ++i) {
-    const auto& [id, at, change] = cells[i];
+  for (const auto& [id, at, change] : cells)
     table += fmt::format("{},{:.9g},{:.9g},{:.9g},{:.6g}\n", id, at.x, at.y, at.z, change);
-    if (i < named_in_message)
-      message_ += fmt::format("{} cell {} at ({:.5g}, {:.5g}, {:.5g})", i == 0 ? "; worst:" : ",", id, at.x,
-                              at.y, at.z);
-  }
+  message_ = fmt::format("{}; worst: {}", error.what(),
+                         named(std::span(cells).first(std::min(cells.size(), named_in_message))));
   spdlog::error("diverged: {}", message_);
   comm_.on_root([&] { replace_file_with(folder_ + "/worst_cells.csv", table); });
 }

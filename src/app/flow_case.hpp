@@ -33,6 +33,8 @@ class FlowCase {
   ImplicitIteration& iteration() { return iteration_; }
   const Motion& motion() const { return motion_; }
   const FlowReport& steady_report() const { return steady_report_; }
+  /// Decades that the residual of the steady flow has dropped, with the limiter free.
+  Real steady_orders() const { return steady_orders_; }
 
   Conditions<Real> conditions() const;
   /// The case's way to let the motion enter the equations; moves this case's mesh. Collective.
@@ -89,6 +91,7 @@ class FlowCase {
   SteadyState steady_state_;
   std::size_t steady_attempt_ = 0;  ///< how often the march has begun again
   FlowReport steady_report_;
+  Real steady_orders_ = 0;
   Real steady_wall_ = not_measured, steady_cpu_ = not_measured;  // of the march on this rank
   std::string message_;
 };

@@ -1,7 +1,10 @@
 #include "app/linear_derivatives.hpp"
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <functional>
+#include <map>
 #include <string>
 #include <utility>
 
@@ -10,6 +13,7 @@
 #include "app/watchdog.hpp"
 #include "core/log.hpp"
 #include "derivatives/sensitivity.hpp"
+#include "derivatives/steady_error.hpp"
 
 namespace alphadot {
 
@@ -45,10 +49,11 @@ int time_derivatives(Variable variable) {
 }
 
 /// The problem of one variable. Those of the rates of the angles need the responses to the angles.
-SensitivityProblem problem_of(ResponseKey key, const FlowCase& flow, const Responses& responses) {
+template <class Solved>
+SensitivityProblem problem_of(ResponseKey key, const FlowCase& flow, const Solved& responses) {
   using enum Variable;
   const auto [variable, limiter_held] = key;
-  SensitivityProblem out{std::string(name(variable)), change_of(variable, flow.settings().freestream), {}};
+  SensitivityProblem out{std::string(name(variable)), change_of(variable, flow.settings().freestream)};
   if (variable == alphadot) out.rate = responses.at({alpha, limiter_held}).field;
   if (variable == betadot) out.rate = responses.at({beta, limiter_held}).field;
   if (variable == alphaddot) out.rate = responses.at({alphadot, limiter_held}).field;
@@ -69,17 +74,14 @@ std::vector<std::vector<Variable>> groups_of(const Case& settings) {
   return out;
 }
 
-void add_column(DerivativeSet& derivatives, Variable variable, const Sensitivity& solution,
-                const Case& settings) {
+CoefficientsOf<Estimate> column_of(Variable variable, const Sensitivity& solution, const Case& settings) {
   const Real rate_scale =
       std::pow(2 * settings.freestream.mach / settings.reference.length, time_derivatives(variable));
   const auto values = coefficients(rate_scale * solution.total, settings);
   const auto errors = coefficients(rate_scale * solution.total_error, settings);
-  CoefficientsOf<Estimate> column;
-  for (int i = 0; i < Coefficients::size(); ++i) column[i] = {values[i], std::abs(errors[i])};
-  derivatives[variable] = column;
-  spdlog::info("{:9} {:3} iterations, linear residual {:.1e}", name(variable), solution.iterations,
-               solution.relative_residual);
+  CoefficientsOf<Estimate> out;
+  for (int i = 0; i < Coefficients::size(); ++i) out[i] = {values[i], std::abs(errors[i])};
+  return out;
 }
 
 /// Solves for all variables but those that the checkpoint has, with a checkpoint after each group. The
@@ -101,8 +103,60 @@ DerivativeSet solve_all(FlowCase& flow, SensitivitySolver& solver, Responses& re
         responses.add({group[i], limiter_held}, std::move(solved[i]));
       responses.save();
     }
-    for (const auto variable : group)
-      add_column(out, variable, responses.at({variable, limiter_held}), flow.settings());
+    for (const auto variable : group) {
+      const auto& solution = responses.at({variable, limiter_held});
+      out[variable] = column_of(variable, solution, flow.settings());
+      spdlog::info("{:9} {:3} iterations, linear residual {:.1e}", name(variable), solution.iterations,
+                   solution.relative_residual);
+    }
+  }
+  return out;
+}
+
+/// A steady residual that has dropped by fewer decades is answered by the derivatives of a better flow.
+constexpr Real deep_enough = 6;
+/// For what a step of Newton's method leaves to the next: shown to hold from half a decade on.
+constexpr Real step_safety = 1.5;
+/// Decades by which a derivative may be worse converged than the flow that it is about.
+constexpr Real lost_decades = 3;
+
+/// Bound of what a deeply converged steady residual still does: a share of each variable's largest entry.
+DerivativeSetOf<Real> small_steady_part(const DerivativeSet& derivatives, Real orders) {
+  DerivativeSetOf<Real> out;
+  for (const auto& [variable, column] : derivatives) {
+    Real largest = 0;
+    for (int i = 0; i < column.size(); ++i) largest = std::max(largest, std::abs(column[i].value));
+    for (int i = 0; i < column.size(); ++i)
+      out[variable][i] = std::pow(10.0, lost_decades - orders) * largest;
+  }
+  return out;
+}
+
+/// How much the derivatives change when the steady flow becomes one step of Newton's method better. Nothing
+/// when the run was stopped.
+DerivativeSetOf<Real> steady_part(FlowCase& flow, SensitivitySolver& solver, const Responses& responses,
+                                  const DerivativeSet& derivatives, const std::function<bool()>& go_on) {
+  const NewtonStep step(flow.iteration(), flow.conditions(), solver);
+  if (step.was_stopped()) return {};
+  auto settings = flow.settings().derivatives;
+  settings.orders = 1;  // of a small difference
+  SensitivitySolver better(flow.iteration(), flow.conditions(), settings, go_on);
+  std::map<ResponseKey, Sensitivity> solved;
+  DerivativeSetOf<Real> out;
+  for (const auto& group : groups_of(flow.settings())) {
+    std::vector<SensitivityProblem> problems;
+    for (const auto variable : group) {
+      problems.push_back(problem_of({variable}, flow, solved));
+      problems.back().guess = responses.at({variable}).field;
+    }
+    auto changed = better.solve(problems);
+    if (changed.empty()) return {};
+    for (std::size_t i = 0; i < group.size(); ++i) {
+      const auto column = column_of(group[i], changed[i], flow.settings());
+      for (int k = 0; k < column.size(); ++k)
+        out[group[i]][k] = step_safety * std::abs(column[k].value - derivatives.at(group[i])[k].value);
+      solved[{group[i]}] = std::move(changed[i]);
+    }
   }
   return out;
 }
@@ -125,6 +179,14 @@ EstimatedDerivatives linear_derivatives(FlowCase& flow) {
   auto& linear = out.parts.emplace_back(UncertaintyPart{"linear", {}});
   for (const auto& [variable, column] : out.derivatives)
     for (int i = 0; i < column.size(); ++i) linear.share[variable][i] = column[i].uncertainty;
+  if (flow.steady_orders() < deep_enough) {
+    spdlog::info("once more about a flow one step of Newton's method nearer to the steady one");
+    auto share = steady_part(flow, solver, responses, out.derivatives, go_on);
+    if (share.empty()) return {};
+    out.add("steady", std::move(share));
+  } else {
+    out.add("steady", small_steady_part(out.derivatives, flow.steady_orders()));
+  }
   if (!settings.derivatives.limiter_uncertainty) return out;
 
   const DerivativeSet held = solve_all(flow, solver, responses, true);

@@ -20,8 +20,8 @@ struct EstimatedDerivatives {
 };
 
 /// Solves for all derivatives about the steady flow that the case has marched to, with a checkpoint after
-/// each group of them; those that its restart brings are taken from there. The parts are "linear" and, when
-/// the case asks for it, "limiter". No derivatives when the run was stopped. Collective. Throws
+/// each group of them; those that its restart brings are taken from there. The parts are "linear", "steady"
+/// and, when the case asks for it, "limiter". No derivatives when the run was stopped. Collective. Throws
 /// DivergedError.
 EstimatedDerivatives linear_derivatives(FlowCase& flow);
 

@@ -47,8 +47,11 @@ struct SpaceSettings {
   int order = 2;
   GradientKind gradient = GradientKind::least_squares;
   LimiterKind limiter = LimiterKind::venkatakrishnan;
-  Real limiter_k = 5;      ///< Venkatakrishnan's K
-  Real freeze_orders = 3;  ///< decades of residual after which the limiter is frozen; 0: never
+  /// Share of a cell's own density, speed of sound and pressure up to which changes pass the limiter.
+  Real limiter_threshold = 0.2;
+  /// Decades of residual after which the limiter is frozen; before, where the march stalls; 0: never. The
+  /// flow that it is frozen at depends on the way there, which one that came to rest does not.
+  Real freeze_orders = 16;
   Real entropy_fix = 0.1;  ///< Harten's delta as a share of the spectral radius
 };
 

@@ -127,6 +127,7 @@ class BlockGmres {
       results_[k].name = problems[k].name;
       for (States* array : {&results_[k].field, &images_[k], &corrections_[k], &defects_[k]})
         array->resize(cells);
+      std::ranges::copy(problems[k].guess, results_[k].field.begin());
     }
   }
 
@@ -155,6 +156,9 @@ class BlockGmres {
     tangent_.apply(fields, changes, spans(images_));
     for (std::size_t k = 0; k < N; ++k)
       if (!problems_[k].rate.empty()) add_mass_term(iteration_, problems_[k].rate, images_[k]);
+    for (std::size_t k = 0; k < N; ++k)
+      for (std::size_t cell = 0; cell < problems_[k].defect.size(); ++cell)
+        images_[k][cell] += problems_[k].defect[cell];
     const auto loads = tangent_.loads();
     for (std::size_t k = 0; k < N; ++k) {
       scaling_.scale(images_[k], defects_[k]);
@@ -217,7 +221,10 @@ class BlockGmres {
                             problems_[static_cast<std::size_t>(growing - records_.begin())].name +
                             " grows: the steady state hides an unstable cell");
       preconditioner_.damp();
-      for (auto& result : results_) std::ranges::fill(result.field, Primitive<Real>{});
+      for (std::size_t k = 0; k < N; ++k) {
+        std::ranges::fill(results_[k].field, Primitive<Real>{});
+        std::ranges::copy(problems_[k].guess, results_[k].field.begin());
+      }
       for (auto& record : records_) record = {};
       evaluate(true);
     }

@@ -18,8 +18,13 @@ namespace alphadot {
 struct SensitivityProblem {
   std::string name;
   ConditionsChange change;  ///< c; zero for the response to a rate
-  std::span<const Primitive<Real>> rate =
-      {};  ///< W_c of the quantity whose rate this is, [owned_cells]; or empty
+  /// W_c of the quantity whose rate this is, [owned_cells]; or empty.
+  std::span<const Primitive<Real>> rate = {};
+  /// Added to the left side, [owned_cells]; or empty. The steady residual makes U a step of Newton's method.
+  std::span<const Conserved<Real>> defect = {};
+  /// What the solution is looked for from, [owned_cells]; or empty for zero. The decades then count from its
+  /// own residual.
+  std::span<const Primitive<Real>> guess = {};
 };
 
 struct Sensitivity {

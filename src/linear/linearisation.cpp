@@ -21,7 +21,8 @@ Linearisation::Linearisation(const Discretization& discretization, const Communi
 }
 
 void Linearisation::hold_limiter() {
-  for (LimiterSlope& slope : slopes_) slope.by_delta = slope.by_bound = {};
+  for (LimiterSlope& slope : slopes_)
+    slope.by_delta = slope.by_bound = slope.by_density = slope.by_pressure = {};
 }
 
 namespace {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace alphadot {
 
@@ -20,6 +21,9 @@ constexpr int most_rejections = 6;
 /// to this share of the lowest.
 constexpr int stalled_iterations = 20;
 constexpr Real stalled_orders = 1, little_progress = 0.8;
+/// A march that has not lowered its residual for as many iterations as it took to reach it, and for so many,
+/// is at its end.
+constexpr int patience = 150;
 
 /// Size of a density residual that is nothing but round-off: the mass flux through a mean face in double
 /// precision.
@@ -32,6 +36,24 @@ Real round_off_residual(const ImplicitIteration& iteration, const Conditions<Rea
   const Real speed = norm(velocity(conditions.free_stream) - conditions.grid.velocity);
   return 1e-15 * mean_area * (1 + speed);
 }
+
+}  // namespace
+
+namespace {
+
+/// The range of a load over some iterations, component by component.
+struct LoadRange {
+  Load least, most;
+  void begin(const Load& load) { least = most = load; }
+  void widen(const Load& load) {
+    for (int i = 0; i < 3; ++i) {
+      least.force[i] = std::min(least.force[i], load.force[i]);
+      least.moment[i] = std::min(least.moment[i], load.moment[i]);
+      most.force[i] = std::max(most.force[i], load.force[i]);
+      most.moment[i] = std::max(most.moment[i], load.moment[i]);
+    }
+  }
+};
 
 }  // namespace
 
@@ -54,6 +76,8 @@ SteadyResult march_to_steady(ImplicitIteration& iteration, const Conditions<Real
   Real previous = resumed ? from.previous_residual : first;
   Real lowest = resumed ? from.lowest_residual : first;
   int lowest_at = from.lowest_at;
+  LoadRange range{from.least, from.most};
+  if (!resumed) range.begin(report.total);
   int jacobian_age = late_jacobian_age;
   int count = from.iteration;
   const auto orders = [&] { return std::log10(first / std::max(report.density_residual, 1e-300)); };
@@ -68,7 +92,23 @@ SteadyResult march_to_steady(ImplicitIteration& iteration, const Conditions<Real
     const bool stalled = count - lowest_at >= stalled_iterations && orders() >= stalled_orders;
     return freeze_orders > 0 && rescue == 0 && (orders() >= freeze_orders || stalled);
   };
-  const auto ended = [&](RunStatus status) { return SteadyResult{status, count, report, orders()}; };
+  const auto has_stalled = [&] { return count - lowest_at >= std::max(patience, lowest_at); };
+  const auto ended = [&](RunStatus status) {
+    const Real reached = orders();
+    Real reached_free = reached;
+    const bool is_over = status == RunStatus::converged || status == RunStatus::completed;
+    if (is_over && iteration.limiter_is_frozen()) {
+      const auto factors = iteration.limiter_factors();
+      const std::vector<Five<float>> frozen(factors.begin(), factors.end());
+      iteration.freeze_limiter(false);
+      reached_free = std::log10(first / std::max(evaluate().density_residual, 1e-300));
+      std::ranges::copy(frozen, factors.begin());
+      iteration.freeze_limiter(true);
+      evaluate();
+    }
+    return SteadyResult{
+        status, count, report, reached, reached_free, has_stalled(), range.most - range.least};
+  };
 
   if (is_steady()) return ended(RunStatus::converged);
   while (count < settings.max_iterations) {
@@ -101,16 +141,20 @@ SteadyResult march_to_steady(ImplicitIteration& iteration, const Conditions<Real
     if (rescue > 0 || previous < little_progress * lowest) {
       lowest = previous;
       lowest_at = count;
+      range.begin(report.total);
+    } else {
+      range.widen(report.total);
     }
     if (limiter_is_due()) iteration.freeze_limiter(true);
     const bool go_on = observer({count,
                                  cfl,
                                  orders(),
                                  report,
-                                 {count, cfl, first, previous, lowest, lowest_at},
+                                 {count, cfl, first, previous, lowest, lowest_at, range.least, range.most},
                                  jacobian_is_due() && rescue == 0});
     if (is_steady()) return ended(RunStatus::converged);
     if (!go_on) return ended(RunStatus::interrupted);
+    if (has_stalled()) break;
   }
   return ended(RunStatus::completed);
 }

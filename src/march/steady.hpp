@@ -15,6 +15,7 @@ struct SteadyState {
   Real first_residual = 0, previous_residual = 0;
   Real lowest_residual = 0;  ///< so far; steps of a few per cent are passed over
   int lowest_at = 0;         ///< the iteration that reached it
+  Load least, most;          ///< total load since then, component by component
 };
 
 /// Passed to the observer after every iteration.
@@ -33,14 +34,21 @@ struct SteadyResult {
   int iterations;
   FlowReport report;
   Real orders;
+  /// Decades that the residual has dropped when the limiter is free, as it is in a motion: the same, unless
+  /// the limiter is frozen.
+  Real free_orders;
+  /// The march ended before its last iteration because nothing more was to be had.
+  bool has_stalled;
+  Load swing;  ///< largest less smallest total load since the residual was last seen to fall
 };
 
 /// Iterates until the density residual has dropped by `settings.orders` decades, the iterations are used up
-/// (status completed) or the observer returns false (interrupted). The CFL number grows while the residual
+/// or the residual has not fallen for as many iterations as led there and 150 more (both status completed),
+/// or the observer returns false (interrupted). The CFL number grows while the residual
 /// behaves; when a state turns unphysical or the residual leaps, the step is taken back, the CFL number cut
 /// and some iterations of first order let the flow settle; after too many such steps the run is diverged. A
 /// residual of nothing but round-off counts as converged too. The limiter is frozen after so many decades as
-/// its settings say, or where the residual has stopped to fall: at strong shocks it may never come to rest.
+/// its settings say, or where the residual has stopped to fall: at some shocks it never comes to rest.
 /// Starts from the flow in `iteration`, or goes on `from` the state that belongs to it.
 ///
 /// There is no start of first order: on the Basic Finner's coarse mesh at Mach 2.5 six decades take 34, 34,

@@ -10,8 +10,8 @@
 namespace alphadot {
 
 /// Venkatakrishnan 1995, equation (18): smooth in `delta` (the reconstructed change) against `bound` (the
-/// change to the extremum of the neighbourhood on the same side); `epsilon2` = (K h)^3 times the square of
-/// the variable's scale lets small wiggles pass. Both signs of delta and bound alike.
+/// change to the extremum of the neighbourhood on the same side); changes much below the root of `epsilon2`
+/// pass. Both signs of delta and bound alike.
 template <class T, class E>
 T venkatakrishnan(const T& delta, const T& bound, const E& epsilon2) {
   const T top = bound * bound + epsilon2 + 2.0 * delta * bound;

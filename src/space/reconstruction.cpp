@@ -217,12 +217,14 @@ Real lowest_ratio(const FourReals& delta, Real factor, Real value) {
   return 1 + factor * smallest_of(to_faces * delta) / value;
 }
 
-/// (K h)^3 with h^3 = 6 V (a cube's corner), times the square of the variable's scale: density 1, speed 1,
-/// pressure 1/gamma.
-Five<Real> passed_wiggles(const Discretization& discretization, Index cell) {
-  const Real gamma = discretization.gamma(), k = discretization.space().limiter_k;
-  const Real epsilon2 = k * k * k * 6 * discretization.domain().volume[cell];
-  return {{epsilon2, epsilon2, epsilon2, epsilon2, epsilon2 / (gamma * gamma)}};
+/// Square of the changes that pass the limiter: a share of the cell's own density, speed of sound and
+/// pressure.
+template <class S>
+Five<S> passed_changes(const Discretization& discretization, const S& density, const S& pressure) {
+  const Real share = discretization.space().limiter_threshold, share2 = share * share;
+  const S sound2 = discretization.gamma() * pressure / density;
+  return {{share2 * density * density, share2 * sound2, share2 * sound2, share2 * sound2,
+           share2 * pressure * pressure}};
 }
 
 }  // namespace
@@ -232,7 +234,7 @@ template <LimiterKind limiter>
 Primitive<T> Reconstruction<T>::limiter_factors(Index cell, const Offsets& offsets, const Primitive<T>& w,
                                                 const Gradient<T>& gradient) {
   const auto& corners = discretization_.domain().cell_points[cell];
-  const Five<Real> epsilon2 = passed_wiggles(discretization_, cell);
+  const Five<Real> epsilon2 = passed_changes(discretization_, value_of(w[0]), value_of(w[4]));
   // All corners at once, a variable after the other.
   std::array<const PointSums*, 4> points;
   for (std::size_t corner = 0; corner < 4; ++corner) points[corner] = &points_[corners[corner]];
@@ -268,10 +270,12 @@ template <LimiterKind limiter>
 LimiterSlope Reconstruction<T>::limiter_slope(Index cell, const FlowField<T>& flow) const {
   const Subdomain& domain = discretization_.domain();
   const auto& corners = domain.cell_points[cell];
-  const Five<Real> epsilon2 = passed_wiggles(discretization_, cell);
   const Offsets offsets = offsets_of(cell);
   const Primitive<Real>& w = flow[cell];
-  LimiterSlope out{{{1, 1, 1, 1, 1}}, unlimited(cell, offsets, w), {}, {}, {}, {}};
+  Dual<2> density = w[0], pressure = w[4];
+  density.d[0] = pressure.d[1] = 1;
+  const Five<Dual<2>> epsilon2 = passed_changes(discretization_, density, pressure);
+  LimiterSlope out{{{1, 1, 1, 1, 1}}, unlimited(cell, offsets, w), {}, {}, {}, {}, {}, {}};
   out.extremum.fill(cell);
   if (frozen_) {
     for (int i = 0; i < 5; ++i) out.factor[i] = factors_[static_cast<std::size_t>(cell)][i];
@@ -280,7 +284,7 @@ LimiterSlope Reconstruction<T>::limiter_slope(Index cell, const FlowField<T>& fl
   for (int i = 0; i < 5; ++i) {
     const auto entry = static_cast<std::size_t>(i);
     for (std::size_t corner = 0; corner < offsets.size(); ++corner) {
-      Dual<2> delta = change_at(out.gradient, reach(limiter) * offsets[corner], i);
+      Dual<3> delta = change_at(out.gradient, reach(limiter) * offsets[corner], i);
       const auto extremum_of = [&](Index point) {
         return delta.v > 0 ? points_[point].maximum[i] : points_[point].minimum[i];
       };
@@ -289,14 +293,15 @@ LimiterSlope Reconstruction<T>::limiter_slope(Index cell, const FlowField<T>& fl
         if (!is_at_corners(limiter) &&
             (delta.v > 0 ? extremum_of(point) > extremum_of(at) : extremum_of(point) < extremum_of(at)))
           at = point;
-      Dual<2> bound = extremum_of(at) - w[i];
-      delta.d[0] = 1;
-      bound.d[1] = 1;
-      const Dual<2> factor = limited_share<limiter>(delta, bound, epsilon2[i]);
+      Dual<3> bound = extremum_of(at) - w[i], passed = epsilon2[i].v;
+      delta.d[0] = bound.d[1] = passed.d[2] = 1;
+      const Dual<3> factor = limited_share<limiter>(delta, bound, passed);
       if (!(factor.v < out.factor[i])) continue;
       out.factor[i] = factor.v;
       out.by_delta[i] = factor.d[0];
       out.by_bound[i] = factor.d[1];
+      out.by_density[i] = factor.d[2] * epsilon2[i].d[0];
+      out.by_pressure[i] = factor.d[2] * epsilon2[i].d[1];
       out.corner[entry] = static_cast<std::uint8_t>(corner);
       const Real side = delta.v > 0 ? 1 : -1;
       out.extremum[entry] = *std::ranges::max_element(domain.point_cells[at], {},
@@ -312,7 +317,8 @@ LimiterSlope Reconstruction<T>::limiter_slope(Index cell, const FlowField<T>& fl
     lowest = std::min(lowest, lowest_ratio<limiter>(delta, out.factor[i], w[i]));
   }
   const Real share = positive_share(lowest);  // held
-  for (auto* numbers : {&out.factor, &out.by_delta, &out.by_bound}) *numbers = share * *numbers;
+  for (auto* numbers : {&out.factor, &out.by_delta, &out.by_bound, &out.by_density, &out.by_pressure})
+    *numbers = share * *numbers;
   return out;
 }
 
@@ -348,7 +354,8 @@ void Reconstruction<T>::follow_limiter(Index cell, const FlowField<T>& flow, con
     const auto entry = static_cast<std::size_t>(i);
     const T delta = change_at(gradient, reach(limiter) * offsets[slope.corner[entry]], i);
     const T bound = flow[slope.extremum[entry]][i] - flow[cell][i];
-    const T factor = slope.by_delta[i] * delta + slope.by_bound[i] * bound;
+    const T factor = slope.by_delta[i] * delta + slope.by_bound[i] * bound +
+                     slope.by_density[i] * flow[cell][0] + slope.by_pressure[i] * flow[cell][4];
     for (int axis = 0; axis < 3; ++axis)
       gradient.along[axis][i] =
           slope.factor[i] * gradient.along[axis][i] + slope.gradient.along[axis][i] * factor;

@@ -56,12 +56,13 @@ T usable_share(const Primitive<T>& face, const Primitive<T>& cell) {
 }
 
 /// How the limited gradient of one cell follows a small change of the flow:
-///   d(phi g) = phi dg + g (by_delta ddelta + by_bound droom)
+///   d(phi g) = phi dg + g (by_delta ddelta + by_bound dbound)
 /// in each variable, delta and bound being those of the corner that limits it most (see limiter.hpp).
 struct LimiterSlope {
   Primitive<Real> factor;   ///< phi
   Gradient<Real> gradient;  ///< g
   Primitive<Real> by_delta, by_bound;
+  Primitive<Real> by_density, by_pressure;  ///< of the cell itself, which set what passes the limiter
   std::array<std::uint8_t, 5> corner;
   std::array<Index, 5> extremum;  ///< the cell whose value gives the bound
 };

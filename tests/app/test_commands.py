@@ -117,7 +117,7 @@ class Commands(unittest.TestCase):
     def test_uncertainty_of_the_limiter(self) -> None:
         limiter_part = {}
         for limiter in ("venkatakrishnan", "none"):
-            changes = (f"space.limiter={limiter}", "space.limiter_k=0.5", "derivatives.limiter_uncertainty=true")
+            changes = (f"space.limiter={limiter}", "space.limiter_threshold=0.01", "derivatives.limiter_uncertainty=true")
             options = [word for change in changes for word in ("--set", change)]
             self.succeeded("derivatives", "case.toml", *options, "--out", limiter, "--quiet")
             found = self.result(limiter)["derivatives"]

@@ -96,7 +96,7 @@ struct VortexScheme {
 };
 
 SpaceSettings space_of(const VortexScheme& scheme) {
-  return {.flux = scheme.flux, .order = 2, .limiter = scheme.limiter, .limiter_k = 5};
+  return {.flux = scheme.flux, .order = 2, .limiter = scheme.limiter, .limiter_threshold = 0.2};
 }
 
 class Vortex : public testing::TestWithParam<VortexScheme> {};
