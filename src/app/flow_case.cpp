@@ -56,6 +56,10 @@ Setup prepare(const CaseArguments& arguments, const Communicator& comm) {
 /// one: it comes to rest slowly, and follows flow that is not steady at all.
 constexpr std::array gentle_limits{1e6, 30.0, 4.0};
 
+/// Share of the limiter's threshold with which a march that stalls begins again, once: the wake of a base has
+/// no steady state until it is damped enough. Not where so many decades are reached.
+constexpr Real damped_share = 0.25, well_converged = 6;
+
 /// Steps of a march that begins again for the so manieth time.
 SteadySettings gentler(SteadySettings settings, std::size_t attempt) {
   if (attempt == 0) return settings;
@@ -140,7 +144,9 @@ void FlowCase::save(const CheckpointHead& head, std::vector<CheckpointField> oth
 }
 
 void FlowCase::restore(std::vector<CheckpointField> others) {
-  iteration_.freeze_limiter(checkpoints_.restart()->numbers.at("limiter_is_frozen").at(0) != 0);
+  const auto& numbers = checkpoints_.restart()->numbers;
+  discretization_.set_limiter_threshold(numbers.at("limiter_threshold").at(0));
+  iteration_.freeze_limiter(numbers.at("limiter_is_frozen").at(0) != 0);
   auto factors = frozen_factors();
   others.push_back({"flow", iteration_.flow().values()});
   if (iteration_.limiter_is_frozen()) others.push_back({"limiter_factors", factors});
@@ -155,6 +161,7 @@ CheckpointHead FlowCase::checkpoint_head(std::string phase) const {
   out.message = message_;
   out.history.info = history_info(settings(), setup_.mesh.hash);
   out.numbers["limiter_is_frozen"] = {iteration_.limiter_is_frozen() ? 1.0 : 0.0};
+  out.numbers["limiter_threshold"] = {discretization_.space().limiter_threshold};
   out.numbers["steady_loads"] = numbers_of(steady_report_.loads);
   return out;
 }
@@ -201,6 +208,8 @@ RunStatus FlowCase::march() {
   } else {
     iteration_.set_uniform(now.free_stream);
   }
+  const Real asked_threshold = settings().space.limiter_threshold;
+  const auto limiter_threshold = [&] { return discretization_.space().limiter_threshold; };
   int saved = steady_state_.iteration;
   progress_.begin_steady(saved);
   const Watchdog watchdog(
@@ -221,16 +230,32 @@ RunStatus FlowCase::march() {
     return march_to_steady(iteration_, now, gentler(settings().steady, steady_attempt_),
                            settings().space.order, observe, steady_state_);
   };
-  auto result = march_on();
-  while (result.status == RunStatus::diverged && steady_attempt_ < gentle_limits.size()) {
-    spdlog::warn("the steady march lost its way in iteration {}: beginning again with gentler steps",
-                 result.iterations);
-    ++steady_attempt_;
+  const auto begin_again = [&] {
     iteration_.set_uniform(now.free_stream);
+    iteration_.freeze_limiter(false);
     steady_state_ = {};
     saved = 0;
     progress_.begin_steady(0);
-    result = march_on();
+    return march_on();
+  };
+  auto result = march_on();
+  while (true) {
+    if (result.status == RunStatus::diverged && steady_attempt_ < gentle_limits.size()) {
+      spdlog::warn("the steady march lost its way in iteration {}: beginning again with gentler steps",
+                   result.iterations);
+      ++steady_attempt_;
+    } else if (result.has_stalled && result.orders < well_converged &&
+               limiter_threshold() == asked_threshold) {
+      discretization_.set_limiter_threshold(damped_share * asked_threshold);
+      message_ = fmt::format(
+          "the steady march stalls {:.1f} decades down with space.limiter_threshold = {:g}, "
+          "which was lowered to {:g}",
+          result.orders, asked_threshold, limiter_threshold());
+      spdlog::warn("{}: beginning again", message_);
+    } else {
+      break;
+    }
+    result = begin_again();
   }
   steady_wall_ = timer.wall();
   steady_cpu_ = timer.cpu();
@@ -246,8 +271,9 @@ RunStatus FlowCase::march() {
         "the steady march found no CFL number that holds (at high incidence "
         "space.flux = \"van_leer\" or \"hllc\" holds where \"roe\" does not)");
   if (result.status == RunStatus::completed) {
-    message_ = fmt::format("the residual dropped {:.1f} of {} decades in {} iterations", result.orders,
-                           settings().steady.orders, result.iterations);
+    if (!message_.empty()) message_ += "; ";
+    message_ += fmt::format("the residual dropped {:.1f} of {} decades in {} iterations", result.orders,
+                            settings().steady.orders, result.iterations);
     if (result.has_stalled)
       message_ += fmt::format(" and falls no more; meanwhile CN goes to and fro by {:.1e}, Cm by {:.1e}",
                               coefficients(result.swing, settings()).CN,

@@ -20,7 +20,7 @@ constexpr int most_rejections = 6;
 /// The limiter is frozen once the flow has taken shape and so many iterations have not lowered the residual
 /// to this share of the lowest.
 constexpr int stalled_iterations = 20;
-constexpr Real stalled_orders = 1, little_progress = 0.8;
+constexpr Real stalled_orders = 1, little_progress = 0.5;
 /// A march that has not lowered its residual for as many iterations as it took to reach it, and for so many,
 /// is at its end.
 constexpr int patience = 150;

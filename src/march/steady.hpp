@@ -13,7 +13,7 @@ struct SteadyState {
   int iteration = 0;
   Real cfl = 0;
   Real first_residual = 0, previous_residual = 0;
-  Real lowest_residual = 0;  ///< so far; steps of a few per cent are passed over
+  Real lowest_residual = 0;  ///< so far; smaller steps than a half are passed over
   int lowest_at = 0;         ///< the iteration that reached it
   Load least, most;          ///< total load since then, component by component
 };

@@ -44,6 +44,8 @@ class Discretization {
 
   const Subdomain& domain() const { return domain_; }
   const SpaceSettings& space() const { return space_; }
+  /// Lets fewer or more changes pass the limiter than the case says.
+  void set_limiter_threshold(Real share) { space_.limiter_threshold = share; }
   const FluxModel& flux() const { return flux_; }
   Real gamma() const { return flux_.gamma; }
   BoundaryKind kind_of(const BoundaryFace& face) const {

@@ -39,7 +39,7 @@ class CoarserMeshes(unittest.TestCase):
         outcome = self.on_meshes("both", '["box4.msh"]')
         self.assertEqual(outcome.codes, [0] * RANKS, outcome.err)
         self.assertIn("mesh 2 of 2: ", outcome.err)
-        self.assertRegex(outcome.out, r"uncertainty +linear +mesh +method")
+        self.assertRegex(outcome.out, r"uncertainty +linear +steady +mesh +method")
         self.derivatives("fine")
         self.derivatives("coarse", "--set", "mesh.file=box4.msh")
         fine, coarse = self.values("fine"), self.values("coarse")
