@@ -54,10 +54,18 @@ SensitivityProblem problem_of(ResponseKey key, const FlowCase& flow, const Solve
   using enum Variable;
   const auto [variable, limiter_held] = key;
   SensitivityProblem out{std::string(name(variable)), change_of(variable, flow.settings().freestream)};
-  if (variable == alphadot) out.rate = responses.at({alpha, limiter_held}).field;
-  if (variable == betadot) out.rate = responses.at({beta, limiter_held}).field;
-  if (variable == alphaddot) out.rate = responses.at({alphadot, limiter_held}).field;
-  if (variable == betaddot) out.rate = responses.at({betadot, limiter_held}).field;
+  const auto follows = [&](Variable of) {
+    const auto& response = responses.at({of, limiter_held});
+    out.rate = response.field;
+    out.rate_residual = response.relative_residual;
+  };
+  const bool has_rate = variable == alpha || variable == beta ||
+                        (flow.settings().derivatives.second_order && time_derivatives(variable) == 1);
+  if (has_rate) out.further_orders = 1;
+  if (variable == alphadot) follows(alpha);
+  if (variable == betadot) follows(beta);
+  if (variable == alphaddot) follows(alphadot);
+  if (variable == betaddot) follows(betadot);
   return out;
 }
 

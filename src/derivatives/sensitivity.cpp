@@ -62,23 +62,31 @@ struct Record {
   }
 };
 
-/// Error that the latest changes leave when they go on to shrink as the residual did over the last
-/// iterations.
+/// Norms of force and moment in every component: a component that is small, or zero by symmetry, is no better
+/// solved for than the others.
+Load size(const Load& load) {
+  const Real force = norm(load.force), moment = norm(load.moment);
+  return {{force, force, force}, {moment, moment, moment}};
+}
+
+/// How far the latest loads may be from those of the solution: as many times the residual as those of any
+/// earlier iteration were from the latest. The ratio differs between iterations, since residuals in some
+/// cells matter more to a load than in others; the largest one counts, and twice, for it is a sample.
 Load remaining_error(const Record& record, const std::vector<Load>& totals) {
-  constexpr std::size_t span = 4;
-  const std::size_t last = totals.size() - 1, before = last - std::min(last, span);
-  if (last == 0) return magnitude(totals.back());
-  const Real drop = record.norms[last] / std::max(record.norms[before], Real{1e-300});
-  const Real rate = std::clamp(std::pow(drop, 1.0 / static_cast<Real>(last - before)), 0.3, 0.95);
-  Load change = magnitude(totals[last] - totals[last - 1]);
-  if (last > 1) {
-    const Load earlier = magnitude(totals[last - 1] - totals[last - 2]);
+  constexpr Real safety = 2, much_larger = 2;
+  const Real last = record.norms.back();
+  if (totals.size() == 1) return magnitude(totals.back());
+  Load out;
+  for (std::size_t j = 0; j + 1 < totals.size(); ++j) {
+    if (record.norms[j] < much_larger * last) continue;
+    const Load distance = magnitude(totals[j] - totals.back());
+    const Real share = safety * last / (record.norms[j] - last);
     for (int i = 0; i < 3; ++i) {
-      change.force[i] = std::max(change.force[i], earlier.force[i]);
-      change.moment[i] = std::max(change.moment[i], earlier.moment[i]);
+      out.force[i] = std::max(out.force[i], share * distance.force[i]);
+      out.moment[i] = std::max(out.moment[i], share * distance.moment[i]);
     }
   }
-  return rate / (1 - rate) * change;
+  return out;
 }
 
 /// The implicit scheme as the preconditioner of the linear solves, as bold as the flow lets it be.
@@ -139,7 +147,7 @@ class BlockGmres {
     else
       gmres();
     if (is_stopped_) return std::nullopt;
-    for (std::size_t k = 0; k < N; ++k) finish(results_[k], records_[k]);
+    for (std::size_t k = 0; k < N; ++k) finish(results_[k], problems_[k], records_[k]);
     return std::move(results_);
   }
 
@@ -193,8 +201,10 @@ class BlockGmres {
     preconditioner_.solve(systems);
   }
 
-  bool all_dropped(Real share) const {
-    return std::ranges::all_of(records_, [&](const Record& record) { return record.drop() <= share; });
+  bool all_dropped() const {
+    for (std::size_t k = 0; k < N; ++k)
+      if (records_[k].drop() > std::pow(10.0, -settings_.orders - problems_[k].further_orders)) return false;
+    return true;
   }
   Real largest_norm() const {
     Real out = 0;
@@ -206,7 +216,7 @@ class BlockGmres {
   /// grows.
   void march() {
     constexpr Real grown = 10;
-    for (int count = 1; count <= settings_.max_iterations && !all_dropped(target_); ++count) {
+    for (int count = 1; count <= settings_.max_iterations && !all_dropped(); ++count) {
       precondition();
       for (std::size_t k = 0; k < N; ++k) {
         ++results_[k].iterations;
@@ -239,13 +249,13 @@ class BlockGmres {
   /// the directions of all.
   void gmres() {
     constexpr Real single_precision = 1e-5;  // what directions kept as such can reduce a residual by
-    for (int used = 0, at_level = 0; used < settings_.max_iterations && !all_dropped(target_);) {
+    for (int used = 0, at_level = 0; used < settings_.max_iterations && !all_dropped();) {
       if (space_.is_full()) space_.clear();
       const Real cycle_start = largest_norm();
       std::vector<KrylovBasis::System> searches;
       for (std::size_t k = 0; k < N; ++k) searches.push_back({defects_[k], records_[k].loads.back(), {}, 0});
       bool stalls = false;
-      while (used < settings_.max_iterations && !space_.is_full() && !all_dropped(target_) && !stalls &&
+      while (used < settings_.max_iterations && !space_.is_full() && !all_dropped() && !stalls &&
              largest_norm() > single_precision * cycle_start) {
         widen_space();
         space_.reduce(searches);
@@ -282,7 +292,7 @@ class BlockGmres {
     space_.add(candidates);
   }
 
-  void finish(Sensitivity& result, Record& record) const {
+  void finish(Sensitivity& result, const SensitivityProblem& problem, Record& record) const {
     std::vector<Load> totals;
     for (auto& loads : record.loads) {
       comm_.sum(loads);
@@ -290,8 +300,10 @@ class BlockGmres {
       totals.push_back(total_of(result.loads));
     }
     result.total = totals.back();
-    result.total_error = remaining_error(record, totals);
     result.relative_residual = record.drop();
+    constexpr Real of_other_components = 0.05;
+    const Real share = of_other_components * result.relative_residual + problem.rate_residual;
+    result.total_error = remaining_error(record, totals) + share * size(result.total);
   }
 
   ImplicitIteration& iteration_;
@@ -301,7 +313,6 @@ class BlockGmres {
   KrylovBasis space_;
   const std::function<bool()>& go_on_;
   bool is_stopped_ = false;
-  Real target_ = std::pow(10.0, -settings_.orders);
   CellScaling scaling_;
   Preconditioner preconditioner_;
   Tangent<N> tangent_;

@@ -20,6 +20,8 @@ struct SensitivityProblem {
   ConditionsChange change;  ///< c; zero for the response to a rate
   /// W_c of the quantity whose rate this is, [owned_cells]; or empty.
   std::span<const Primitive<Real>> rate = {};
+  Real rate_residual = 0;   ///< relative residual that W_c was solved to, which reaches W_cdot too
+  Real further_orders = 0;  ///< decades beyond those of the settings, for a response whose rate is wanted
   /// Added to the left side, [owned_cells]; or empty. The steady residual makes U a step of Newton's method.
   std::span<const Conserved<Real>> defect = {};
   /// What the solution is looked for from, [owned_cells]; or empty for zero. The decades then count from its

@@ -17,6 +17,7 @@ struct Load {
     moment += b.moment;
     return *this;
   }
+  friend Load operator+(Load a, const Load& b) { return a += b; }
   friend Load operator-(const Load& a, const Load& b) { return {a.force - b.force, a.moment - b.moment}; }
   friend Load operator*(Real s, const Load& a) { return {s * a.force, s * a.moment}; }
 };

@@ -1,0 +1,212 @@
+#!/usr/bin/python3
+"""Holds the printed derivatives of many small cases against differences of steady flows.
+
+Draws cases over body, Mach number, incidence, flux, limiter, gradient and scheme (seeded), and compares the derivatives by alpha and by
+q, loads CA, CN and Cm, with central differences of steady flows at a little more and less incidence or rate, which another scheme
+converges. An entry of a run that says "converged" must agree within its printed uncertainty and what the difference itself may be off;
+a case whose steady flows do not come to rest has no reference and is counted as such. Then the same bodies with a defect planted: a
+march cut short, a linear solve cut short, a cell nearly without volume. Those must not say "converged", or be right.
+
+Exit code 0 when no promise is broken. Writes consistency.csv into --out; --jobs runs at a time, a second or two each.
+"""
+
+from __future__ import annotations
+
+import argparse
+import csv
+import json
+import math
+import os
+import random
+import subprocess
+import sys
+from collections import Counter
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[1]
+CASES = ROOT / "cases"
+LOADS = ("CA", "CN", "Cm")
+ALPHA_STEP, Q_STEP = 2e-3, 2e-5  # degrees; reduced rate
+# Steady flows are ten decades down, so that what they leave in a difference is 1e-10 over a step; curvature and kinks of limiter and flux
+# leave more, which the difference with twice the step tells.
+SOLVER_NOISE = 1e-9
+
+
+@dataclass(frozen=True)
+class Body:
+    case: str  # below cases/
+    make: tuple[str, ...]  # command of its mesh, without the output
+    machs: tuple[float, ...]
+
+
+BODIES = {
+    "wedge": Body("wedge/derivatives.toml", ("wedge/mesh.py", "--level", "tiny"), (1.5, 1.8, 2.0, 2.5, 3.5)),
+    "cone": Body("sharp_cone/derivatives.toml", ("sharp_cone/mesh.py", "--size", "0.11"), (1.58, 2.0, 2.5, 3.5, 5.0)),
+    "finner": Body("basic_finner/derivatives.toml", ("basic_finner/mesh.py", "--size", "0.2"), (1.58, 1.75, 2.1, 2.5, 3.5)),
+    "wing": Body("delta_wing/wing.toml", ("gmsh",), (1.5, 2.0, 2.5, 3.0)),
+}
+SCHEMES = ({}, {"steady.scheme": "lu_sgs"}, {"steady.krylov_directions": 20}, {"steady.sweeps": 2}, {"derivatives.method": "march"})
+OTHER = {"steady.sweeps": 3, "steady.cfl_max": 200, "steady.cfl_start": 10, "steady.orders": 10}
+
+
+def mesh_of(name: str, folder: Path) -> Path:
+    body, path = BODIES[name], folder / f"{name}.msh"
+    if not path.exists():
+        if body.make[0] == "gmsh":
+            line = ["gmsh", "-3", "-clscale", "1.6", "-format", "msh22", str(CASES / "delta_wing" / "wing.geo"), "-o", str(path)]
+        else:
+            line = ["/usr/bin/python3", str(CASES / body.make[0]), *body.make[1:], "-o", str(path)]
+        subprocess.run(line, check=True, capture_output=True)
+    return path
+
+
+def run(program: str, verb: str, case: str, settings: dict[str, object], out: Path) -> dict | None:
+    """Its result, or nothing when it refused the input."""
+    words = []
+    for key, value in {"output.flow": "false", "output.surface": "false", **settings}.items():
+        words += ["--set", f"{key}={value}"]
+    done = subprocess.run([program, verb, str(CASES / case), "--out", str(out), "--quiet", *words], capture_output=True, text=True)
+    if done.returncode == 1:
+        return None
+    return json.loads((out / "result.json").read_text())
+
+
+def slope(program: str, case: str, settings: dict[str, object], variable: str, out: Path) -> dict[str, tuple[float, float]] | None:
+    """Central difference of each load and how far it may be off; nothing when a flow did not come to rest."""
+    loads = {}
+    for k in (-2, -1, 1, 2):
+        here = dict(settings)
+        if variable == "alpha":
+            here["freestream.alpha"] = settings["freestream.alpha"] + k * ALPHA_STEP
+        else:
+            here["motion.rotation"] = f"[0,{k * Q_STEP},0]"
+        found = run(program, "run", case, here, out / f"{variable}{k}")
+        if not found or found["status"] != "converged" or found.get("message"):
+            return None
+        loads[k] = found["forces"]
+    step = math.radians(ALPHA_STEP) if variable == "alpha" else Q_STEP
+    result = {}
+    for load in LOADS:
+        near, far = ((loads[k][load] - loads[-k][load]) / (2 * k * step) for k in (1, 2))
+        result[load] = (near, abs(far - near) + SOLVER_NOISE / step)
+    return result
+
+
+def draw(rng: random.Random) -> tuple[str, dict[str, object]]:
+    name = rng.choice(list(BODIES))
+    settings: dict[str, object] = {
+        "freestream.mach": rng.choice(BODIES[name].machs),
+        "freestream.alpha": rng.choice((0.0, 1.0, 3.0, 5.0)),
+        "space.flux": rng.choice(("roe", "hllc", "van_leer")),
+        "space.limiter": rng.choice(("venkatakrishnan", "venkatakrishnan", "mlp_u2", "barth_jespersen", "none")),
+        "space.gradient": rng.choice(("least_squares", "least_squares", "green_gauss")),
+        **rng.choice(SCHEMES),
+    }
+    return name, settings
+
+
+def squashed(mesh: Path, rng: random.Random) -> Path:
+    """A copy whose inner point has been moved most of the way into the opposite face of one of its cells."""
+    text = mesh.with_name(f"{mesh.stem}_text.msh")
+    if not text.exists():
+        part = mesh.with_name(f"{mesh.stem}_text_{rng.random()}.msh")
+        subprocess.run(["gmsh", str(mesh), "-save", "-format", "msh22", "-o", str(part)], check=True, capture_output=True)
+        part.rename(text)
+    lines = text.read_text().splitlines()
+    at = lines.index("$Nodes") + 2
+    points = {int(words[0]): (i, [float(x) for x in words[1:4]])
+              for i, words in ((i, lines[i].split()) for i in range(at, at + int(lines[at - 1])))}  # fmt: skip
+    at = lines.index("$Elements") + 2
+    elements = [[int(word) for word in line.split()] for line in lines[at : at + int(lines[at - 1])]]
+    corners = [element[3 + element[2] :] for element in elements if element[1] == 4]
+    surface = {point for element in elements if element[1] == 2 for point in element[3 + element[2] :]}
+    inner = [(point, [other for other in c if other != point]) for c in corners for point in c if point not in surface]
+    point, others = rng.choice(inner)
+    index, old = points[point]
+    middle = [sum(points[other][1][k] for other in others) / 3 for k in range(3)]
+    moved = [old[k] + 0.97 * (middle[k] - old[k]) for k in range(3)]
+    lines[index] = f"{point} {moved[0]:.17g} {moved[1]:.17g} {moved[2]:.17g}"
+    path = mesh.with_name(f"{mesh.stem}_squashed_{point}.msh")
+    path.write_text("\n".join(lines) + "\n")
+    return path
+
+
+def check(number: int, program: str, folder: Path, seed: int, defect: str) -> list[dict[str, object]]:
+    """One row a promise."""
+    rng = random.Random(1000 * seed + number)
+    name, settings = draw(rng)
+    mesh = mesh_of(name, folder)
+    if defect == "cell":
+        mesh = squashed(mesh, rng)
+    settings["mesh.file"] = mesh
+    out = folder / f"run_{defect}_{number}"
+    planted = {"march": {"steady.max_iterations": rng.choice((3, 6, 10))}, "solve": {"derivatives.max_iterations": rng.choice((1, 2, 3))}}
+    base = {"number": number, "defect": defect, "body": name} | {key: str(value) for key, value in settings.items() if key != "mesh.file"}
+    found = run(program, "derivatives", BODIES[name].case, settings | planted.get(defect, {}), out / "derivatives")
+    if found is None:
+        return [base | {"verdict": "refused"}]
+    if found["status"] != "converged":
+        return [base | {"verdict": f"says {found['status']}"}]
+    if defect in planted:
+        return [base | {"verdict": "BROKEN: says converged"}]
+    reference = {key: value for key, value in settings.items() if not key.startswith(("steady.", "derivatives."))} | OTHER
+    rows = []
+    exact = run(program, "derivatives", BODIES[name].case, settings | {"derivatives.orders": 8, "derivatives.max_iterations": 3000}, out / "exact")
+    for entry, found_here in found["derivatives"].items() if exact["status"] == "converged" else ():
+        error = abs(found_here["value"] - exact["derivatives"][entry]["value"])
+        holds = error <= found_here["uncertainty"] + exact["derivatives"][entry]["uncertainty"]
+        rows.append(base | {"entry": entry, "value": found_here["value"], "eight_decades": exact["derivatives"][entry]["value"],
+                            "error": error, "printed": found_here["uncertainty"],
+                            "verdict": "holds beside eight decades" if holds else "BROKEN: beside eight decades"})  # fmt: skip
+    for variable in ("alpha", "q"):
+        slopes = slope(program, BODIES[name].case, reference, variable, out)
+        if slopes is None:
+            rows.append(base | {"entry": variable, "verdict": "no reference"})
+            continue
+        for load, (value, doubt) in slopes.items():
+            entry = found["derivatives"][f"{load}_{variable}"]
+            error, allowed = abs(entry["value"] - value), entry["uncertainty"] + doubt
+            rows.append(base | {"entry": f"{load}_{variable}", "value": entry["value"], "difference": value, "error": error,
+                                "printed": entry["uncertainty"], "doubt": doubt,
+                                "verdict": "holds" if error <= allowed else "BROKEN: error beyond the uncertainty"})  # fmt: skip
+    return rows
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--program", default=str(ROOT / "build" / "alphadot"))
+    parser.add_argument("--cases", type=int, default=200, help="drawn without a defect; a quarter as many with each defect")
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--jobs", type=int, default=2)
+    parser.add_argument("--out", type=Path, default=ROOT / "runs" / "consistency")
+    arguments = parser.parse_args()
+    os.environ |= {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", "OMPI_MCA_ess_singleton_isolated": "1"}
+    arguments.out.mkdir(parents=True, exist_ok=True)
+    for name in BODIES:
+        mesh_of(name, arguments.out)
+    work = [(number, "none") for number in range(arguments.cases)]
+    work += [(number, defect) for defect in ("march", "solve", "cell") for number in range(arguments.cases // 4)]
+    rows = []
+    with ThreadPoolExecutor(arguments.jobs) as pool:
+        jobs = [pool.submit(check, number, arguments.program, arguments.out, arguments.seed, defect) for number, defect in work]
+        for done, job in enumerate(jobs, 1):
+            rows += job.result()
+            if sys.stderr.isatty() or done % 20 == 0:
+                print(f"{done} of {len(jobs)} cases, {len(rows)} promises", file=sys.stderr)
+    names = list(dict.fromkeys(key for row in rows for key in row))
+    with open(arguments.out / "consistency.csv", "w", newline="") as file:
+        writer = csv.DictWriter(file, names)
+        writer.writeheader()
+        writer.writerows(rows)
+    for (defect, verdict), count in sorted(Counter((row["defect"], row["verdict"]) for row in rows).items()):
+        print(f"defect {defect:6} {verdict:40} {count}")
+    broken = [row for row in rows if row["verdict"].startswith("BROKEN")]
+    for row in broken[:20]:
+        print({key: value for key, value in row.items() if value != ""})
+    sys.exit(1 if broken else 0)
+
+
+if __name__ == "__main__":
+    main()
