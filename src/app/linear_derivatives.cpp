@@ -123,8 +123,9 @@ DerivativeSet solve_all(FlowCase& flow, SensitivitySolver& solver, Responses& re
 
 /// A steady residual that has dropped by fewer decades is answered by the derivatives of a better flow.
 constexpr Real deep_enough = 6;
-/// For what a step of Newton's method leaves to the next: shown to hold from half a decade on.
-constexpr Real step_safety = 1.5;
+/// For what a step of Newton's method leaves to the next, also of a component that it happens not to move:
+/// shown to hold from one decade on.
+constexpr Real step_safety = 2, of_other_components = 0.3;
 /// Decades by which a derivative may be worse converged than the flow that it is about.
 constexpr Real lost_decades = 3;
 
@@ -161,8 +162,14 @@ DerivativeSetOf<Real> steady_part(FlowCase& flow, SensitivitySolver& solver, con
     if (changed.empty()) return {};
     for (std::size_t i = 0; i < group.size(); ++i) {
       const auto column = column_of(group[i], changed[i], flow.settings());
+      CoefficientsOf<Real> change;
+      Real largest = 0;
+      for (int k = 0; k < column.size(); ++k) {
+        change[k] = std::abs(column[k].value - derivatives.at(group[i])[k].value);
+        largest = std::max(largest, change[k]);
+      }
       for (int k = 0; k < column.size(); ++k)
-        out[group[i]][k] = step_safety * std::abs(column[k].value - derivatives.at(group[i])[k].value);
+        out[group[i]][k] = step_safety * (change[k] + of_other_components * largest);
       solved[{group[i]}] = std::move(changed[i]);
     }
   }
