@@ -15,6 +15,15 @@ Json json_of(const NamedValues& values) {
   return out;
 }
 
+/// Single numbers stand for themselves, others in an array.
+Json json_of(const ConfigurationResult& configuration) {
+  Json out = Json::object();
+  for (const auto& [name, values] : configuration.facts)
+    out[name] = values.size() == 1 ? Json(values.front()) : Json(values);
+  out["warnings"] = configuration.warnings;
+  return out;
+}
+
 Json json_of(const Result& r) {
   Json forces = json_of(r.forces);
   forces["components"] = Json::object();
@@ -40,6 +49,7 @@ Json json_of(const Result& r) {
       {"ranks", source.ranks},
       {"mesh",
        {{"file", r.mesh.file}, {"cells", r.mesh.cells}, {"points", r.mesh.points}, {"hash", r.mesh.hash}}},
+      {"configuration", json_of(r.configuration)},
       {"reference",
        {{"length", r.reference.length},
         {"area", r.reference.area},

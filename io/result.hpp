@@ -61,12 +61,19 @@ struct MeshResult {
   std::string hash;
 };
 
+/// What the mesh is as a configuration: see Configuration in src/space.
+struct ConfigurationResult {
+  std::vector<std::pair<std::string, std::vector<Real>>> facts;  ///< in the order in which they are shown
+  std::vector<std::string> warnings;                             ///< what is improbable about it
+};
+
 struct Result {
   RunStatus status = RunStatus::error;
   std::string message;                   ///< why it ended so; may be empty
   std::vector<std::string> not_reached;  ///< what was asked for and not reached
   std::string title;
   MeshResult mesh;
+  ConfigurationResult configuration;
   ReferenceSettings reference;
   FreestreamSettings freestream;
   std::string rate = "times length / (2 V)";  ///< how rates are made dimensionless

@@ -23,10 +23,17 @@ struct TetrahedronMetrics {
   Vec3 center;  ///< centroid
 };
 
+/// How far a tetrahedron is from a regular one.
+struct TetrahedronShape {
+  Real smallest_angle;  ///< between two of its faces, degrees; 70.5 when regular
+  Real aspect_ratio;    ///< longest edge over smallest height; scaled to 1 when regular
+};
+
 /// Metrics of a triangle or tetrahedron from its corners and their global ids. Computed in the order of the
 /// ids, so that every rank, at every number of ranks, finds bitwise the same value (the sign of normal and
 /// volume aside, which follows the order given).
 TriangleMetrics triangle_metrics(std::array<Vec3, 3> points, std::array<GlobalIndex, 3> ids);
 TetrahedronMetrics tetrahedron_metrics(std::array<Vec3, 4> points, std::array<GlobalIndex, 4> ids);
+TetrahedronShape tetrahedron_shape(std::array<Vec3, 4> points, std::array<GlobalIndex, 4> ids);
 
 }  // namespace alphadot

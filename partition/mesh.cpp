@@ -8,8 +8,11 @@
 #include <cstddef>
 #include <memory>
 #include <span>
+#include <utility>
 
 #include "core/error.hpp"
+#include "partition/box.hpp"
+#include "partition/disjoint_sets.hpp"
 #include "partition/face_matching.hpp"
 #include "partition/geometry.hpp"
 
@@ -129,6 +132,8 @@ class Validator {
   void check_faces() {
     const auto cell_sides = static_cast<Index>(4 * mesh_.cells.size());
     Tally crowded, overlapping, bare, twice_covered, covered_inside, loose;
+    DisjointSets joined(mesh_.cells.size());      // through faces that no triangle covers
+    std::vector<std::pair<Index, Index>> beside;  // cells on either side of inner triangles
     for_each_face<GlobalIndex>(
         mesh_.cells, triangles_, mesh_.points.size(), [&](std::span<const Index> sides) {
           const auto cells =
@@ -144,7 +149,11 @@ class Validator {
             overlapping.add(cell);
           if (cells == 1 && triangles == 0) bare.add(cell);
           if (cells == 1 && triangles > 1) twice_covered.add(triangle);
-          if (cells > 1 && triangles > 0) covered_inside.add(triangle);
+          if (cells == 2 && triangles == 0) joined.join(sides[0] / 4, sides[1] / 4);
+          if (cells > 1 && triangles > 0) {
+            covered_inside.add(triangle);
+            beside.emplace_back(sides[0] / 4, sides[1] / 4);
+          }
           if (cells == 0) loose.add(triangle);
         });
     report_cells(crowded, "shares a face with two or more other cells",
@@ -155,9 +164,51 @@ class Validator {
                  "and merge double points");
     report_triangles(twice_covered, "covers a face that another triangle covers too",
                      "put each surface in one patch only");
-    report_triangles(covered_inside, "lies between two cells", "leave inner surfaces out of the patches");
+    report_inner_surface(covered_inside, beside, joined);
     report_triangles(loose, "is not a face of any cell",
                      "leave surfaces without a volume next to them out of the patches");
+  }
+
+  /// A surface inside the mesh either has cells of one flow on both sides, or parts it: then the mesh goes on
+  /// inside the body.
+  void report_inner_surface(const Tally& tally, const std::vector<std::pair<Index, Index>>& beside,
+                            DisjointSets& joined) {
+    const auto parts = std::ranges::find_if(
+        beside, [&](const auto& cells) { return joined.root(cells.first) != joined.root(cells.second); });
+    if (parts == beside.end()) {
+      report_triangles(tally, "lies between two cells",
+                       "give a body that has no thickness two sides with points of their own (Gmsh's plugin "
+                       "Crack does), or a thickness; leave surfaces that are no bodies out of the patches");
+      return;
+    }
+    std::array<Part, 2> sides{part_of(parts->first, joined), part_of(parts->second, joined)};
+    if (sides[0].cells < sides[1].cells) std::swap(sides[0], sides[1]);
+    report_triangles(
+        tally,
+        fmt::format(
+            "lies between two cells: it parts {} cells from {} to {} from {} cells from {} to {}, of which "
+            "one must be the inside of the body",
+            sides[0].cells, text(sides[0].box.lower), text(sides[0].box.upper), sides[1].cells,
+            text(sides[1].box.lower), text(sides[1].box.upper)),
+        "leave the volume inside the body out of the mesh (in Gmsh, a Physical Volume of the flow alone); "
+        "the "
+        "surface stays a patch");
+  }
+
+  /// Cells joined to a given one.
+  struct Part {
+    GlobalIndex cells = 0;
+    Box box = empty_box();
+  };
+  Part part_of(Index cell, DisjointSets& joined) const {
+    const Index root = joined.root(cell);
+    Part out;
+    for (std::size_t i = 0; i < mesh_.cells.size(); ++i) {
+      if (joined.root(static_cast<Index>(i)) != root) continue;
+      ++out.cells;
+      for (const GlobalIndex point : mesh_.cells[i]) extend(out.box, mesh_.points[point]);
+    }
+    return out;
   }
 
   /// True when the sides are traversed in opposite senses, i.e. their cells lie on opposite sides of the
@@ -184,7 +235,7 @@ class Validator {
             remedy);
   }
 
-  void report_triangles(const Tally& tally, const char* what, const char* remedy) {
+  void report_triangles(const Tally& tally, const std::string& what, const char* remedy) {
     if (tally.count == 0) return;
     GlobalIndex place = tally.first;  // within its patch
     auto patch = mesh_.patches.begin();

@@ -4,13 +4,9 @@
 #include <cstdint>
 
 #include "core/vec3.hpp"
+#include "partition/box.hpp"
 
 namespace alphadot {
-
-/// An axis-parallel box.
-struct Box {
-  Vec3 lower, upper;
-};
 
 /// Position of the point `at` along a Hilbert curve through the box, of 2^63 steps (Skilling 2004). Points
 /// near each other along the curve are near each other in space, so that a stretch of it is a compact part.

@@ -11,6 +11,7 @@
 #include <memory>
 #include <utility>
 
+#include "app/configuration_view.hpp"
 #include "app/loads.hpp"
 #include "app/motion_setup.hpp"
 #include "app/pictures.hpp"
@@ -114,6 +115,7 @@ FlowCase::FlowCase(const CaseArguments& arguments, const Communicator& comm)
       setup_.mesh.cells, setup_.mesh.points, comm.size(), comm.size() == 1 ? "" : "s", memory.arrays / cells,
       memory.peak / cells, 1e-9 * memory.busiest_rank);
   const auto excluded = excluded_patches();
+  for (const auto& warning : setup_.warnings) spdlog::warn("{}", warning);
   if (!excluded.empty()) spdlog::info("left out of the forces: {}", fmt::join(excluded, ", "));
   iteration_.take_along(checkpoints_.reduction());
   if (arguments.restart) checkpoints_.begin_from(*arguments.restart);
@@ -372,6 +374,7 @@ Result FlowCase::result(RunStatus end, std::span<const TableRow> derivatives) co
     out.message += fmt::format("{}{}", message_.empty() ? "" : "; ", fmt::join(shortfalls_, "; "));
   out.title = settings().title;
   out.mesh = setup_.mesh;
+  out.configuration = configuration_result(setup_);
   out.reference = settings().reference;
   out.freestream = settings().freestream;
   out.rate = "length / (2 V)";

@@ -80,6 +80,8 @@ int main(int argc, char** argv) {
 
   auto& check = *app.add_subcommand("check", "Check case and mesh without running");
   add_case_arguments(check, arguments);
+  bool whole_case = false;
+  check.add_flag("-v,--verbose", whole_case, "Print the case with every default filled in, too");
 
   PartitionArguments cut;
   auto& partition =
@@ -128,7 +130,7 @@ int main(int argc, char** argv) {
   return guarded(comm, [&] {
     if (run) return run_verb(arguments, comm);
     if (derivatives) return derivatives_verb(arguments, comm);
-    if (check) return check_verb(arguments, comm);
+    if (check) return check_verb(arguments, whole_case, comm);
     if (partition) return partition_verb(cut, comm);
     if (derive) return derive_verb(file, center, comm);
     if (info) return info_verb(file, comm);

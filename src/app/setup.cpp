@@ -13,6 +13,7 @@
 #include "io/case_file.hpp"
 #include "io/mesh_reader.hpp"
 #include "io/partitioned_mesh.hpp"
+#include "space/plausibility.hpp"
 
 namespace alphadot {
 
@@ -98,6 +99,12 @@ Setup load_setup(const Case& settings, const Communicator& comm) {
   out.mesh.cells = out.domain.global_cells;
   out.mesh.points = out.domain.global_points;
   out.patch_kinds = match_patches(settings, out.domain.patch_names);
+  out.configuration = survey(out.domain, out.patch_kinds, settings, comm);
+  comm.on_all([&] {
+    auto [problems, warnings] = judge(out.configuration, out.domain.patch_names, settings);
+    if (!problems.empty()) throw InputError(std::move(problems));
+    out.warnings = std::move(warnings);
+  });
   return out;
 }
 

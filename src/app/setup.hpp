@@ -8,6 +8,7 @@
 #include "core/communicator.hpp"
 #include "io/result.hpp"
 #include "partition/subdomain.hpp"
+#include "space/configuration.hpp"
 
 namespace alphadot {
 
@@ -25,14 +26,16 @@ struct Setup {
   Subdomain domain;
   ReadingMemory memory;
   std::vector<BoundaryKind> patch_kinds;  ///< of every patch of the mesh, in its order
+  Configuration configuration;
+  std::vector<std::string> warnings;  ///< what is improbable about the case with this mesh
 };
 
 /// Reads and checks the case file (on the root; broadcast). Collective. Throws InputError on every rank.
 Case load_case(const std::string& path, const std::vector<std::string>& overrides, const Communicator& comm);
 
 /// Reads, checks and distributes the mesh of a case and matches its patches with [boundary]. A mesh prepared
-/// by alphadot partition is read by all ranks at once; any other by the root. Collective. Throws InputError
-/// on every rank.
+/// by alphadot partition is read by all ranks at once; any other by the root. Then looks whether the mesh is
+/// what the case says. Collective. Throws InputError on every rank.
 Setup load_setup(const Case& settings, const Communicator& comm);
 
 }  // namespace alphadot

@@ -36,8 +36,9 @@ RunStatus run_verb(const CaseArguments& arguments, const Communicator& comm);
 /// respect to alpha, q and alphadot, and on a full model beta, p, r and betadot.
 RunStatus derivatives_verb(const CaseArguments& arguments, const Communicator& comm);
 
-/// Reads and checks case and mesh, prints what a run would work on.
-RunStatus check_verb(const CaseArguments& arguments, const Communicator& comm);
+/// Reads and checks case and mesh; prints what is improbable first, then what a run would work on, and on
+/// demand the whole case with every default.
+RunStatus check_verb(const CaseArguments& arguments, bool whole_case, const Communicator& comm);
 
 /// Prepares a mesh for reading by many ranks at once.
 RunStatus partition_verb(const PartitionArguments& arguments, const Communicator& comm);

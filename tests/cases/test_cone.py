@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import math
 import sys
 import tempfile
 import unittest
@@ -10,10 +11,12 @@ from pathlib import Path
 
 import numpy as np
 
-from exact import CASES, ExactCase, cone_derivatives, run, table
+from exact import CASES, MESHES, ExactCase, cone_derivatives, run, table
 
-sys.path.insert(0, str(CASES / "sharp_cone"))
+sys.path[:0] = [str(CASES / "sharp_cone"), str(CASES.parent / "scripts")]
 import compare
+import gmsh
+import meshing
 
 STEADY = table("sharp_cone/reference/exact_cone_steady.csv")
 NAMES = ("CN_alpha", "CN_q", "Cm_q", "CN_alphadot", "Cm_alphadot")
@@ -62,6 +65,30 @@ class Derivatives(ExactCase):
         for yaw, pitch in (("CY_beta", "CN_alpha"), ("CY_r", "CN_q"), ("CY_betadot", "CN_alphadot"), ("Cn_r", "Cm_q")):
             sign = -1.0 if "beta" in yaw else 1.0  # beta is positive with the wind from starboard, alpha with the wind from below
             self.assert_close(yaw, found[yaw], sign * found[pitch], 0.01)
+
+    def test_roll_of_a_cone_that_lies_askew(self) -> None:
+        # A cone in a wind along its axis feels no spin. About an axis that makes an angle a with its own, roll is spin and sin(a) of yaw,
+        # whose moment, the exact Cm_q by symmetry, has components along both axes.
+        a = math.radians(20.0)
+        turn = np.array([[math.cos(a), 0.0, -math.sin(a)], [0.0, 1.0, 0.0], [math.sin(a), 0.0, math.cos(a)]])
+        with tempfile.TemporaryDirectory() as name:
+            folder = Path(name)
+            gmsh.initialize()
+            mesh = meshing.read(MESHES / "cone_full.msh")
+            mesh.points = mesh.points @ turn.T
+            meshing.write(mesh, folder / "askew.su2", "su2")
+            gmsh.finalize()
+            center = [float(x) for x in turn @ (2.0 / 3.0, 0.0, 0.0)]
+            settings = {"freestream.alpha": 20.0, "reference.moment_center": center}
+            found = run(folder, "derivatives", "sharp_cone/full.toml", folder / "askew.su2", settings)["derivatives"]
+        value = {name: entry["value"] for name, entry in found.items()}
+        scale = abs(EXACT["Cm_q"]) * math.sin(a)
+        for name, exact in {
+            "Cl_p": EXACT["Cm_q"] * math.sin(a) ** 2,
+            "Cn_p": -EXACT["Cm_q"] * math.sin(a) * math.cos(a),
+            "CY_p": -EXACT["CN_q"] * math.sin(a),
+        }.items():
+            self.assert_close(name, value[name], exact, 0.01, of=scale if name != "CY_p" else exact)
 
 
 if __name__ == "__main__":

@@ -74,7 +74,7 @@ TEST_P(Steady, IsReachedSoonerByPassesDownstream) {
       box, ramp_conditions(), orders,
       std::make_unique<BlockLuSgs>(box.discretization, comm, 3, PassOrder::downstream));
   expect_same(states(downstream, box), states(alternating, box), 1e-9);
-  EXPECT_LE(downstream.result.iterations, alternating.result.iterations);
+  EXPECT_LT(downstream.result.iterations, alternating.result.iterations);
 }
 
 TEST_P(Steady, IsReachedByGmresAroundEitherScheme) {

@@ -130,6 +130,24 @@ TEST(MeshValidate, RejectsATriangleBetweenTwoCells) {
                 "triangle 3 of patch \"z_min\" at (0.666667, 0.333333, 0.333333) lies between two cells");
 }
 
+TEST(MeshValidate, TellsABodyWithoutThicknessFromOneThatIsMeshedInside) {
+  Mesh sheet = box_mesh({.cells = {2, 3, 3}});
+  Patch fin{"fin", {}}, across{"across", {}};
+  for (auto triangle : sheet.patches[0].triangles) {
+    for (auto& point : triangle) ++point;  // from x = 0 to x = 1/2
+    across.triangles.push_back(triangle);
+  }
+  fin.triangles = {across.triangles[8], across.triangles[9]};  // a square with the flow all around
+  Mesh parted = sheet;
+  sheet.patches.push_back(fin);
+  expect_defect(sheet, "lies between two cells (2 such cases); give a body that has no thickness two sides");
+  // From wall to wall the same surface parts the mesh.
+  parted.patches.push_back(across);
+  expect_defect(
+      parted, "it parts 54 cells from (0, 0, 0) to (0.5, 1, 1) from 54 cells from (0.5, 0, 0) to (1, 1, 1)");
+  expect_defect(parted, "leave the volume inside the body out of the mesh");
+}
+
 TEST(MeshValidate, RejectsATriangleOnNoCell) {
   Mesh mesh = box_mesh({.cells = {1, 1, 1}});
   mesh.patches[0].triangles.push_back({1, 2, 4});  // cuts a corner of the cube

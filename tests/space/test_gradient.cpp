@@ -1,5 +1,6 @@
-// Reconstruction. Expectations: least squares is exact for linear fields; Barth & Jespersen's limiter makes
-// no new extrema on faces.
+// Reconstruction. Expectations: least squares is exact for linear fields; Green and Gauss's theorem, summed
+// face by face; Barth & Jespersen's limiter makes no new extrema on faces, that of Park & Kim (MLP-u2) none
+// at the points.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -25,8 +26,8 @@ Primitive<Real> linear_state(const Vec3& x) {
 }
 
 struct Gradients {
-  Gradients(const BoxSides& sides, LimiterKind limiter)
-      : box(small_box(), sides, {.limiter = limiter}, Communicator()),
+  Gradients(const BoxSides& sides, const SpaceSettings& space, const Mesh& mesh = small_box())
+      : box(mesh, sides, space, Communicator()),
         flow(box.domain, box.comm),
         reconstruction(box.discretization, box.comm) {}
 
@@ -51,7 +52,7 @@ void expect_linear(const Gradient<Real>& gradient) {
 
 // Up to the boundary and in the ghosts across cut faces, which receive their owners' gradients.
 TEST(Gradient, IsExactForLinearFields) {
-  Gradients g(open_box(), LimiterKind::none);
+  Gradients g(open_box(), {.limiter = LimiterKind::none});
   g.reconstruct([](const Vec3& x, GlobalIndex) { return linear_state(x); });
   for (Index cell = 0; cell < g.box.domain.owned_cells; ++cell) expect_linear(g.reconstruction[cell]);
   for (const auto& neighbour : g.box.domain.neighbours)
@@ -60,7 +61,7 @@ TEST(Gradient, IsExactForLinearFields) {
 }
 
 TEST(Gradient, CarriesLinearStatesToFacesExactly) {
-  Gradients g(open_box(), LimiterKind::none);
+  Gradients g(open_box(), {.limiter = LimiterKind::none});
   g.reconstruct([](const Vec3& x, GlobalIndex) { return linear_state(x); });
   const Subdomain& domain = g.box.domain;
   for (std::size_t face = 0; face < domain.faces.size(); ++face)
@@ -71,9 +72,69 @@ TEST(Gradient, CarriesLinearStatesToFacesExactly) {
     }
 }
 
+// Rausch, Batina & Yang's values of points (1991) reproduce linear fields where cells lie all around, and so
+// do integrals over faces of values that are linear on them. Near the boundary their weights are cut.
+TEST(GreenGauss, IsExactForLinearFieldsInTheInterior) {
+  Gradients g(open_box(), {.gradient = GradientKind::green_gauss, .limiter = LimiterKind::none});
+  g.reconstruct([](const Vec3& x, GlobalIndex) { return linear_state(x); });
+  const Subdomain& domain = g.box.domain;
+  GlobalIndex interior = 0;
+  for (Index cell = 0; cell < domain.owned_cells; ++cell) {
+    const bool is_interior = std::ranges::all_of(domain.cell_points[cell], [&](Index point) {
+      const Vec3& p = domain.points[point];  // of the box from (-1, 0, 2) to (1, 1.2, 3)
+      return std::abs(p.x) < 1 && p.y > 0 && p.y < 1.2 && p.z > 2 && p.z < 3;
+    });
+    if (!is_interior) continue;
+    expect_linear(g.reconstruction[cell]);
+    ++interior;
+  }
+  EXPECT_EQ(g.box.comm.sum(interior), 6 * 3 * 2 * 2);
+}
+
+// Of a field that is not linear, on a regular mesh: there the 24 cells around an inner point lie opposite
+// each other, and the point's value is their mean. The integral of that over a cell's faces, by its volume.
+TEST(GreenGauss, IsTheSurfaceIntegralOfMeansAroundPoints) {
+  Gradients g(open_box(), {.gradient = GradientKind::green_gauss, .limiter = LimiterKind::none},
+              box_mesh({.cells = {4, 4, 4}}));
+  const auto curved = [](const Vec3& x) {
+    Primitive<Real> w;
+    for (int i = 0; i < 5; ++i) w[i] = 10 + x.x * x.x + (1 + i) * x.x * x.y - x.z * x.z * x.z;
+    return w;
+  };
+  g.reconstruct([&](const Vec3& x, GlobalIndex) { return curved(x); });
+  const Subdomain& domain = g.box.domain;
+  const auto is_inner = [&](Index point) {
+    const Vec3& p = domain.points[point];
+    return p.x > 0 && p.x < 1 && p.y > 0 && p.y < 1 && p.z > 0 && p.z < 1;
+  };
+  const auto mean_around = [&](Index point, int i) {
+    Real sum = 0;
+    for (const Index cell : domain.point_cells[point]) sum += curved(domain.center[cell])[i];
+    EXPECT_EQ(domain.point_cells[point].size(), 24u);
+    return sum / 24;
+  };
+  GlobalIndex inner = 0;
+  for (Index cell = 0; cell < domain.owned_cells; ++cell) {
+    if (!std::ranges::all_of(domain.cell_points[cell], is_inner)) continue;
+    ++inner;
+    for (int i = 0; i < 5; ++i) {
+      Vec3 integral;
+      for (const Index face : domain.cell_faces[cell]) {
+        Real value = 0;
+        for (const Index point : domain.face_points[face]) value += mean_around(point, i) / 3;
+        const Real sign = domain.faces[face].left == cell ? 1 : -1;
+        integral += sign * value * domain.face_normal[face];
+      }
+      for (int axis = 0; axis < 3; ++axis)
+        EXPECT_NEAR(g.reconstruction[cell].along[axis][i], integral[axis] / domain.volume[cell], round_off);
+    }
+  }
+  EXPECT_EQ(g.box.comm.sum(inner), 6 * 2 * 2 * 2);
+}
+
 // Cells in the edges between two walls are held at first order, all others are exact.
 TEST(Gradient, VanishesInCellsWithTwoWallsOnly) {
-  Gradients g(channel(), LimiterKind::none);
+  Gradients g(channel(), {.limiter = LimiterKind::none});
   g.reconstruct([](const Vec3& x, GlobalIndex) { return linear_state(x); });
   const Subdomain& domain = g.box.domain;
   std::vector<int> walls(g.box.cells(), 0);
@@ -95,7 +156,7 @@ TEST(Gradient, VanishesInCellsWithTwoWallsOnly) {
 
 // By brute force over the cells around the points of each cell.
 TEST(BarthJespersen, MakesNoNewExtremaOnFaces) {
-  Gradients g(open_box(), LimiterKind::barth_jespersen);
+  Gradients g(open_box(), {.limiter = LimiterKind::barth_jespersen});
   g.reconstruct(rough_state);
   const Subdomain& domain = g.box.domain;
   const auto expect_within = [&](Index cell, const Vec3& at) {
@@ -118,12 +179,52 @@ TEST(BarthJespersen, MakesNoNewExtremaOnFaces) {
     expect_within(domain.boundary_faces[i].cell, domain.boundary_center[i]);
 }
 
+// By brute force over the cells around each point, which is what sets this limiter apart: others look at the
+// extrema around all points of a cell. The threshold is so low that no wiggle passes.
+TEST(MlpU2, MakesNoNewExtremaAtPoints) {
+  Gradients g(open_box(), {.limiter = LimiterKind::mlp_u2, .limiter_threshold = 1e-9});
+  g.reconstruct(rough_state);
+  const Subdomain& domain = g.box.domain;
+  Real largest_share = 0;  // of the room towards an extremum that is used
+  for (Index cell = 0; cell < domain.owned_cells; ++cell)
+    for (const Index point : domain.cell_points[cell]) {
+      const auto found =
+          extrapolated(g.flow[cell], g.reconstruction[cell], domain.points[point] - domain.center[cell]);
+      for (int i = 0; i < 5; ++i) {
+        Real lowest = std::numeric_limits<Real>::max(), highest = -lowest;
+        for (const Index other : domain.point_cells[point]) {
+          lowest = std::min(lowest, g.flow[other][i]);
+          highest = std::max(highest, g.flow[other][i]);
+        }
+        EXPECT_GE(found[i], lowest - 1e-14);
+        EXPECT_LE(found[i], highest + 1e-14);
+        const Real change = found[i] - g.flow[cell][i],
+                   room = (change > 0 ? highest : lowest) - g.flow[cell][i];
+        if (room != 0) largest_share = std::max(largest_share, change / room);
+      }
+    }
+  // Venkatakrishnan's function is 3/4 where the change is as large as the room, and below 1 / (1 + y / 4).
+  EXPECT_GT(g.box.comm.max(largest_share), 0.7);
+}
+
+// A linear field has its extrema at the farthest cells, beyond what the corners of a cell reach: the limiter
+// leaves three quarters or more of it, and all of it below a threshold that lets everything pass.
+TEST(MlpU2, LeavesWhatPassesWhole) {
+  Gradients g(open_box(), {.limiter = LimiterKind::mlp_u2, .limiter_threshold = 1e3});
+  g.reconstruct([](const Vec3& x, GlobalIndex) { return linear_state(x); });
+  for (Index cell = 0; cell < g.box.domain.owned_cells; ++cell)
+    for (int i = 0; i < 5; ++i)
+      for (int axis = 0; axis < 3; ++axis)
+        EXPECT_NEAR(g.reconstruction[cell].along[axis][i], slope_of(i)[axis], 1e-6);
+}
+
 // Every limiter multiplies a component of the unlimited gradient by one factor in [0, 1] per variable.
 TEST(Limiters, ShortenTheGradientAlongItself) {
-  Gradients free(open_box(), LimiterKind::none);
+  Gradients free(open_box(), {.limiter = LimiterKind::none});
   free.reconstruct(rough_state);
-  for (const LimiterKind limiter : {LimiterKind::venkatakrishnan, LimiterKind::barth_jespersen}) {
-    Gradients limited(open_box(), limiter);
+  for (const LimiterKind limiter :
+       {LimiterKind::venkatakrishnan, LimiterKind::mlp_u2, LimiterKind::barth_jespersen}) {
+    Gradients limited(open_box(), {.limiter = limiter});
     limited.reconstruct(rough_state);
     GlobalIndex shortened = 0;
     for (Index cell = 0; cell < free.box.domain.owned_cells; ++cell)
@@ -140,7 +241,7 @@ TEST(Limiters, ShortenTheGradientAlongItself) {
       }
     // Jumps of a few per cent from cell to cell are what Barth & Jespersen's limiter is for.
     const GlobalIndex everywhere = free.box.comm.sum(shortened);
-    EXPECT_TRUE(everywhere > 0 || limiter == LimiterKind::venkatakrishnan);
+    EXPECT_TRUE(everywhere > 0 || limiter != LimiterKind::barth_jespersen);
   }
 }
 
