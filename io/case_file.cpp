@@ -11,6 +11,7 @@
 #include <tuple>
 
 #include "core/error.hpp"
+#include "core/fit_needs.hpp"
 #include "io/case_keys.hpp"
 #include "io/case_words.hpp"
 #include "io/suggestion.hpp"
@@ -197,6 +198,38 @@ class CaseReader {
       complain_about({"unsteady.duration", "motion.kind"}, motion + " needs unsteady.duration > 0");
     if (has_duration && c.unsteady.steps < 1)
       complain_about({"unsteady.steps", "motion.kind"}, motion + " needs unsteady.steps >= 1");
+    check_derivatives(c);
+  }
+
+  /// A motion that runs to its end must yield derivatives.
+  void check_derivatives(const Case& c) {
+    const auto& unsteady = c.unsteady;
+    const auto refuse = [&](const std::string& key, Real value, Real least, const std::string& why) {
+      if (value < least)
+        complain_about({"unsteady." + key, "motion.kind"},
+                       fmt::format("unsteady.{} = {:g} gives no derivatives: {}", key, value, why),
+                       fmt::format("set unsteady.{} = {:g} or more", key, least));
+    };
+    switch (c.motion.kind) {
+      case MotionKind::none:
+      case MotionKind::table:
+        return;
+      case MotionKind::step_alpha:
+      case MotionKind::step_q:
+        return refuse("steps", unsteady.steps, least_step_samples - 1, "too few for the response to a step");
+      case MotionKind::ramp_alpha: {
+        static_assert(ramp_transient == 0.5);
+        return refuse("steps", unsteady.steps, 2 * (least_ramp_samples - 1),
+                      "too few are left behind the start of the ramp, which takes half of it");
+      }
+      default:
+        refuse("cycles", unsteady.cycles, discarded_cycles + least_fitted_cycles,
+               fmt::format("the first {:g} are left out as start-up, and the fit takes {:g}",
+                           discarded_cycles, least_fitted_cycles));
+        refuse("steps_per_cycle", unsteady.steps_per_cycle, steps_per_harmonic * fitted_harmonics + 1,
+               fmt::format("the fit goes up to {} times the frequency, with more than {} steps a period",
+                           fitted_harmonics, steps_per_harmonic));
+    }
   }
 
   /// Defaults that depend on other keys, and absolute paths.

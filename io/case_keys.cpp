@@ -142,7 +142,8 @@ std::vector<CaseKey> make_keys() {
       .key("steps", &UnsteadySettings::steps, IntegerValue{.from = 0}, "number of time steps in the duration")
       .key("inner_tolerance", &UnsteadySettings::inner_tolerance, NumberValue{.above = 0, .to = 1},
            "change of the out-of-phase moment between inner iterations, relative to it")
-      .key("max_inner", &UnsteadySettings::max_inner, count, "limit of inner iterations a time step");
+      .key("max_inner", &UnsteadySettings::max_inner, IntegerValue{.from = 3},
+           "limit of inner iterations a time step; fewer show no rate to judge them by");
 
   Table(keys, "derivatives", &Case::derivatives)
       .key("method", &DerivativeSettings::method, WordValue{words_of<SensitivityMethod>},

@@ -19,7 +19,7 @@ namespace alphadot {
 namespace {
 
 constexpr char format_name[] = "alphadot history";
-constexpr std::int64_t format_version = 1;
+constexpr std::int64_t format_version = 2;
 
 std::vector<double> as_vector(const Vec3& v) {
   return {v.x, v.y, v.z};
@@ -59,6 +59,7 @@ void write_info(hdf5::Group& group, const HistoryInfo& info) {
   group.set_attribute("mesh_hash", info.mesh_hash);
   group.set_attribute("version", info.version);
   group.set_attribute("conventions", info.conventions);
+  group.set_attribute("status", info.status);
   group.write_text("case", info.case_text);
 }
 
@@ -82,6 +83,7 @@ HistoryInfo read_info(const hdf5::Group& group) {
   info.mesh_hash = group.text_attribute("mesh_hash");
   info.version = group.text_attribute("version");
   info.conventions = group.text_attribute("conventions");
+  if (group.has_attribute("status")) info.status = group.text_attribute("status");
   info.case_text = group.dataset("case").read_text();
   return info;
 }
@@ -182,6 +184,7 @@ History History::read(const hdf5::Group& group) {
 std::string History::csv() const {
   std::string text;
   if (names_.empty()) return text;
+  if (!info.status.empty()) text += "# Status: " + info.status + '\n';
   for (std::size_t i = 0; i < names_.size(); ++i) text += (i ? "," : "") + csv_cell(names_[i]);
   text += '\n';
   for (std::size_t step = 0; step < steps(); ++step) text += csv_row(step);

@@ -20,6 +20,7 @@ struct HistoryInfo {
   std::string mesh_hash;
   std::string version;    ///< of the program that wrote it
   std::string case_text;  ///< the resolved case
+  std::string status;     ///< how the run ended, and what was not reached; empty: not known
   /// How to read the columns.
   std::string conventions =
       "mesh axes x aft, y starboard, z up; CA CY CN along them over q S; Cl Cm Cn over q S length about body "
@@ -58,7 +59,9 @@ class History {
   /// Reads back such a group. Throws InputError when it is not one, of another version, or damaged.
   static History read(const hdf5::Group& group);
 
-  std::string csv() const;  ///< a line of names, then a line a step, all digits; empty when there are none
+  /// A comment with the status (if known), a line of names, then a line a step, all digits; empty when there
+  /// are none.
+  std::string csv() const;
   std::string csv_row(std::size_t step) const;
 
   HistoryInfo info;

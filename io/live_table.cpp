@@ -31,7 +31,9 @@ Table read_table(const std::string& path) {
   Table out;
   std::ifstream in(path, std::ios::binary);
   std::string line;
-  if (!std::getline(in, line)) return out;
+  do {
+    if (!std::getline(in, line)) return out;
+  } while (line.starts_with('#'));
   for (const auto name : cells_of(line)) out.names.emplace_back(name);
   out.columns.resize(out.names.size());
   while (std::getline(in, line) && !in.eof()) {  // a line without its end is not whole yet

@@ -20,8 +20,8 @@ struct Table {
   const std::vector<Real>* find(std::string_view name) const;
 };
 
-/// Reads a CSV file of numbers; ends before the first row that is not whole, such as one that is being
-/// written. Empty when the file cannot be read.
+/// Reads a CSV file of numbers, without the comments above it; ends before the first row that is not whole,
+/// such as one that is being written. Empty when the file cannot be read.
 Table read_table(const std::string& path);
 
 /// Writes a file row by row, each visible to readers at once. It is there to be looked at: when it cannot be

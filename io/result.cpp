@@ -23,7 +23,8 @@ Json json_of(const Result& r) {
 
   Json derivatives = Json::object();
   for (const auto& [name, d] : r.derivatives) {
-    derivatives[name] = {{"value", d.value}, {"uncertainty", d.uncertainty}, {"method", d.method}};
+    derivatives[name] = {
+        {"value", d.value}, {"uncertainty", d.uncertainty}, {"method", d.method}, {"converged", d.converged}};
     if (!d.parts.empty()) derivatives[name]["parts"] = json_of(d.parts);
     if (!d.mesh_convergence.empty()) derivatives[name]["mesh_convergence"] = json_of(d.mesh_convergence);
   }
@@ -34,6 +35,7 @@ Json json_of(const Result& r) {
   return {
       {"status", to_string(r.status)},
       {"message", r.message},
+      {"not_reached", r.not_reached},
       {"title", r.title},
       {"ranks", source.ranks},
       {"mesh",
@@ -52,6 +54,7 @@ Json json_of(const Result& r) {
         {"gamma", r.freestream.gamma}}},
       {"forces", forces},
       {"derivatives", derivatives},
+      {"uncertainty", r.uncertainty},
       {"longitudinal", json_of(r.longitudinal)},
       {"performance",
        {{"wall_s", performance.wall_s},

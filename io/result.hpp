@@ -20,6 +20,7 @@ struct DerivativeResult {
   Real value = 0;
   Real uncertainty = 0;
   std::string method;                 ///< "harmonic fit of plunge at k = 0.01", ...
+  bool converged = true;              ///< everything that it rests on reached what was asked for
   NamedValues parts = {};             ///< of the uncertainty, by source; may be empty
   NamedValues mesh_convergence = {};  ///< what refinement of the mesh says; may be empty
 };
@@ -62,7 +63,8 @@ struct MeshResult {
 
 struct Result {
   RunStatus status = RunStatus::error;
-  std::string message;  ///< why it ended so; may be empty
+  std::string message;                   ///< why it ended so; may be empty
+  std::vector<std::string> not_reached;  ///< what was asked for and not reached
   std::string title;
   MeshResult mesh;
   ReferenceSettings reference;
@@ -74,6 +76,7 @@ struct Result {
   std::map<std::string, NamedValues> components;        ///< the same by patch
   std::vector<std::string> excluded;                    ///< patches left out of the forces (sting, jet)
   std::map<std::string, DerivativeResult> derivatives;  ///< by name, "Cm_alphadot"; per radian
+  std::string uncertainty;   ///< what those of the derivatives hold; empty: there are none
   NamedValues longitudinal;  ///< static margin, neutral point, limits of quasi-steady flight; may be empty
   PerformanceResult performance;
   Provenance provenance;

@@ -2,10 +2,10 @@
 """Sweeps: many runs of alphadot over Mach number, angle of attack, method and mesh, and a report on them.
 
   sweep.py run SWEEP.toml      runs what is not done, here, and ends with the report; resumes what was interrupted
-  sweep.py status SWEEP.toml   shows which runs wait, run, are done, were interrupted, or failed and why
+  sweep.py status SWEEP.toml   shows which runs wait, run, are done, not converged, interrupted, or failed and why
   sweep.py report SWEEP.toml   writes report.html, and its tables and figures as files, of what is done
   sweep.py extend SWEEP.toml   adds Mach numbers, or cycles to the motions; `run` then does what is new
-  sweep.py retry SWEEP.toml    takes the failed runs up again
+  sweep.py retry SWEEP.toml    takes the failed runs up again, and begins those anew that are not converged
   sweep.py clean SWEEP.toml    removes the folders of failed and interrupted runs, or of all
   sweep.py slurm SWEEP.toml    writes the scripts of a Slurm array job, and submits it
 
@@ -28,7 +28,8 @@ A sweep file:
   mach = 2.5
   set."unsteady.cycles" = 2.5           # any key of the case
 
-Exit codes: 0 every run is done, 1 some failed or an error, 2 wrong command line, 3 interrupted with work left.
+Exit codes: 0 every run is done, 1 some failed or an error, 2 wrong command line, 3 interrupted with work left, 5 every run came to
+its end, but some are not converged.
 Needs Debian's python3-numpy, python3-h5py and python3-matplotlib (hence /usr/bin/python3).
 """
 
@@ -63,7 +64,7 @@ def parse() -> argparse.Namespace:
     extend.add_argument("--mach", type=float, nargs="+", metavar="M", help="Mach numbers to add, for the methods of the sweep")
     extend.add_argument("--method", nargs="+", help="for these methods only")
     extend.add_argument("--cycles", type=float, help="cycles of every motion, in all")
-    retry = add("retry", "take failed runs up again")
+    retry = add("retry", "take failed runs up again, and those that are not converged")
     retry.add_argument("--only", metavar="RUN", help="this one alone")
     clean = add("clean", "remove folders of failed and interrupted runs")
     clean.add_argument("--all", action="store_true", help="remove those of all runs, and the report")

@@ -110,7 +110,12 @@ def percent(value: float, of: float) -> str:
     return f"{100 * (value / of - 1):+6.1f} %"
 
 
-def table(runs: list[Derivatives], paper: dict[float, Row], center: float, reference: dict) -> str:
+def uncertainty_of(results: Iterable[dict]) -> str:
+    """What the uncertainties of some results hold."""
+    return "; ".join(dict.fromkeys(result.get("uncertainty") or "not known" for result in results))
+
+
+def table(runs: list[Derivatives], paper: dict[float, Row], center: float, reference: dict, uncertainty: str) -> str:
     """The comparison as text: `runs` about 5.5 d, then about the fitted centre beside the paper's values."""
     width = max(len(run.method) for run in runs)
     head = f"  Mach  {'method':<{width}}"
@@ -121,6 +126,7 @@ def table(runs: list[Derivatives], paper: dict[float, Row], center: float, refer
         f"  Reference: length {reference['length']:g} d, area {reference['area']:.6f} d^2 (pi/4, whole model); x in d from the nose.",
         f"  Axes: {reference['axes']}.",
         f"  Per radian; rates times {reference['rate']}: Cm_alphadot = dCm / d(alphadot d / 2V).",
+        f"  Uncertainty, in each run's result.json: {uncertainty}.",
         f"  Centre: the paper does not state its own. x_ref = {center:.3f} d is one least-squares fit, on relative misfit, to its",
         "  five static values. Its acceleration and damping values are not in the fit: about x_ref ours are predictions of them.",
         "",
@@ -157,7 +163,7 @@ def draw_loop(folder: Path, result: dict, center: float, picture: Path) -> None:
     here = derivatives_of(result)
     run, dx = here.about(center), center - here.center
     with open(folder / "history.csv") as file:
-        rows = list(csv.DictReader(file))
+        rows = list(csv.DictReader(line for line in file if not line.startswith("#")))
     with h5py.File(folder / "history.h5") as history:
         k, mean, amplitude = (float(history.attrs[name]) for name in ("reduced_frequency", "alpha", "amplitude"))
     alpha = np.degrees(column(rows, "alpha"))
@@ -254,7 +260,8 @@ def main() -> None:
     parser.add_argument("folder", type=Path, help="folder of scripts/demo.sh, with the runs plunge and mach_*")
     folder = parser.parse_args().folder
     plunge = read_result(folder / "plunge")
-    sweep = [derivatives_of(read_result(path.parent)) for path in folder.glob("mach_*/result.json")]
+    results = [read_result(path.parent) for path in folder.glob("mach_*/result.json")]
+    sweep = [derivatives_of(result) for result in results]
     sweep.sort(key=lambda run: run.mach)
     rows = read_table("paper_table1.csv")
     paper = {float(row["mach"]): row for row in rows}
@@ -262,7 +269,7 @@ def main() -> None:
         parser.error(f"{folder}/mach_* hold Mach {[run.mach for run in sweep]}, wanted are the paper's {list(paper)}")
 
     center = fitted_center(sweep, column(rows, "static_field"))
-    text = table([*sweep, derivatives_of(plunge)], paper, center, plunge["reference"])
+    text = table([*sweep, derivatives_of(plunge)], paper, center, plunge["reference"], uncertainty_of([*results, plunge]))
     (folder / "table_one.txt").write_text(text)
     draw_loop(folder / "plunge", plunge, center, folder / "loop.png")
     draw_mach(sweep, rows, center, folder / "mach.png")

@@ -16,6 +16,7 @@ from sweep.state import END, RESULT, Phase, checkpoints, read_state
 from sweep.status import states, status_text
 
 SWEEP_LOCK = "sweep.lock"
+ENDED = {Phase.DONE, Phase.SHORT}
 
 
 def exclusive(sweep: Sweep) -> AbstractContextManager[int]:
@@ -40,14 +41,17 @@ def run(sweep: Sweep, arguments: Namespace) -> int:
         raise SweepError(f"{sweep.file.name} is being run by {error}; see sweep.py status {sweep.file}") from None
     found = states(sweep)
     print(f"\n{status_text(sweep)}")
-    if not arguments.no_report and any(state.phase is Phase.DONE for _, state in found):
+    if not arguments.no_report and any(state.phase in ENDED for _, state in found):
         report(sweep, arguments)
     return exit_code(found)
 
 
 def exit_code(found: list) -> int:
+    """As the program's: 1 when a run failed, 3 when some are still to be done, 5 when some are not converged."""
     phases = {state.phase for _, state in found}
-    return 1 if Phase.FAILED in phases else 0 if phases == {Phase.DONE} else 3
+    if Phase.FAILED in phases:
+        return 1
+    return 0 if phases == {Phase.DONE} else 5 if phases <= ENDED else 3
 
 
 def status(sweep: Sweep, arguments: Namespace) -> int:
@@ -110,13 +114,18 @@ def toml_value(value: object) -> str:
 
 
 def retry(sweep: Sweep, arguments: Namespace) -> int:
-    """What has no end counts as interrupted, and `run` takes it up."""
+    """What has no end counts as interrupted, and `run` takes it up. One that is not converged would go on from its checkpoint to
+    the same end: it starts again."""
     wanted = [sweep.find(arguments.only)] if arguments.only else sweep.runs
     with exclusive(sweep):
-        failed = [run for run in wanted if read_state(run).phase is Phase.FAILED]
+        found = [(run, read_state(run).phase) for run in wanted]
+        failed = [run for run, phase in found if phase in (Phase.FAILED, Phase.SHORT)]
         for run in failed:
             for name in (END, RESULT):
                 (run.folder / name).unlink(missing_ok=True)
+        for run, phase in found:
+            for file in checkpoints(run) if phase is Phase.SHORT else []:
+                file.unlink()
     print(f"{len(failed)} to be run again{': ' if failed else ''}{', '.join(run.name for run in failed)}")
     return 0
 
@@ -145,7 +154,7 @@ def slurm(sweep: Sweep, arguments: Namespace) -> int:
     program = find_program(arguments.program)
     wanted = [run for run, state in states(sweep) if state.phase in (Phase.WAITING, Phase.INTERRUPTED)]
     if not wanted:
-        print("nothing to submit: every run is done, running, or failed (see sweep.py retry)")
+        print("nothing to submit: every run is done, running, not converged, or failed (see sweep.py retry)")
         return 0
     for run in wanted:
         try:

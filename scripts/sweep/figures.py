@@ -100,7 +100,8 @@ def draw_quantity(results: Results, quantity: Quantity, folder: Path) -> Picture
     axes.set_title(quantity.symbol, fontsize=12)
     if axes.lines:
         axes.legend(handlelength=2.6)
-    return save(figure, folder, f"mach_{quantity.name}", quantity.title, " + ".join(quantity.terms))
+    caption = f"{' + '.join(quantity.terms)}; bars: {results.uncertainty}"
+    return save(figure, folder, f"mach_{quantity.name}", quantity.title, caption)
 
 
 def series_label(entry: Entry, results: Results) -> list[str]:
@@ -131,6 +132,10 @@ def draw_series(
         else:
             look = {"ls": style, "marker": "o", "ms": 4, "mec": color, "zorder": 3}
         axes.errorbar(mach, pick(values), pick(errors), color=color, mew=0.6, lw=1.6, capsize=3, label=label, **look)
+        loose = [(entries[index].mach, values[index]) for index in keep if not entries[index].converged]
+        for at, value in loose:
+            known = "not converged" in axes.get_legend_handles_labels()[1]
+            axes.plot(at, value, "X", color=PAPER, ms=9, mec="white", zorder=6, label=None if known else "not converged")
 
 
 def draw_published(axes: plt.Axes, results: Results, quantity: Quantity) -> None:
@@ -170,7 +175,7 @@ def read_columns(path: Path) -> dict[str, np.ndarray]:
     """Columns of a CSV file of a run, or {} if there is none."""
     try:
         with open(path) as file:
-            rows = list(csv.DictReader(file))
+            rows = list(csv.DictReader(line for line in file if not line.startswith("#")))
     except OSError:
         return {}
     return {name: column(rows, name) for name in rows[0]} if rows else {}
@@ -247,7 +252,7 @@ def convergence_figures(results: Results, folder: Path) -> list[Picture]:
         for index, (entry, history) in enumerate(histories):
             color = plt.get_cmap("viridis")(index / max(1, len(histories) - 1) * 0.92)
             style = "--" if entry.run.is_motion else "-"
-            label = entry.run.name.replace("_", " ")
+            label = entry.label.replace("_", " ")
             axes.plot(history["iteration"], -history["orders"], style, color=color, lw=1.3, label=label)
         axes.legend(fontsize=7)
         axes.set_title("Steady marches", fontsize=11)
@@ -257,7 +262,7 @@ def convergence_figures(results: Results, folder: Path) -> list[Picture]:
     if motions:
         figure, axes = panel("t* = 2 V t / length", "inner iterations a step")
         for (entry, history), color in zip(motions, COLORS * len(motions)):
-            axes.plot(history["t_star"], history["inner_iterations"], color=color, lw=1.3, label=entry.run.name.replace("_", " "))
+            axes.plot(history["t_star"], history["inner_iterations"], color=color, lw=1.3, label=entry.label.replace("_", " "))
         axes.set_ylim(bottom=0)
         axes.set_title("Motions", fontsize=11)
         axes.legend(fontsize=7)
@@ -269,7 +274,7 @@ def convergence_figures(results: Results, folder: Path) -> list[Picture]:
                 np.abs(history["error/Cm"]) + 1e-16,
                 color=color,
                 lw=1.3,
-                label=entry.run.name.replace("_", " "),
+                label=entry.label.replace("_", " "),
             )
         axes.set_title("Motions", fontsize=11)
         axes.legend(fontsize=7)

@@ -77,7 +77,7 @@ def warnings(results: Results) -> str:
     """Runs whose numbers are to be read with care."""
     loose = [entry for entry in results.entries if not entry.converged]
     lines = [f"<li>{escape(entry.run.name)}: {escape(entry.state.detail)}</li>" for entry in loose]
-    return f'<p class="bad">Not converged to the tolerance asked for:</p><ul class="bad">{"".join(lines)}</ul>' if lines else ""
+    return f'<p class="bad">Not converged, what was asked for was not reached:</p><ul class="bad">{"".join(lines)}</ul>' if lines else ""
 
 
 def conventions(results: Results) -> str:
@@ -117,7 +117,7 @@ def beside_the_paper(results: Results, folder: Path) -> str:
 
 def against_mach(results: Results, folder: Path) -> str:
     drawn = page.grid(figures.mach_figures(results, folder))
-    note = "Bars are the uncertainty that the program gives."
+    note = f"Bars are the uncertainty that the program gives: {results.uncertainty}."
     if results.published:
         note += " Moments: solid lines are about the centre fitted to the paper's static values, dashed ones about "
         note += f"{FREE_FLIGHT_CENTER} d, dotted ones about {SZNAJDER_CENTER} d."

@@ -17,7 +17,7 @@ from table_one import Derivatives, Row, column, derivatives_of, fitted_center
 
 @dataclass(frozen=True)
 class Entry:
-    """A run that is done."""
+    """A run that came to its end, converged or not."""
 
     run: Run
     state: State
@@ -33,8 +33,13 @@ class Entry:
 
     @property
     def converged(self) -> bool:
-        """False when a steady march ran out of iterations."""
-        return self.run.is_motion or self.result["status"] == "converged"
+        """False when something that was asked for was not reached."""
+        return self.state.phase is Phase.DONE
+
+    @property
+    def label(self) -> str:
+        """Its name, with a mark that nobody overlooks where it is not converged."""
+        return self.run.name if self.converged else f"{self.run.name} (not converged)"
 
     @cached_property
     def here(self) -> Derivatives:
@@ -94,9 +99,10 @@ class Results:
     @staticmethod
     def of(sweep: Sweep) -> Results:
         found = states(sweep)
-        entries = [Entry(run, state, read_json(run.folder / RESULT)) for run, state in found if state.phase is Phase.DONE]
-        entries.sort(key=lambda entry: (entry.series, entry.mach))
-        unfinished = [(run, state) for run, state in found if state.phase is not Phase.DONE]
+        ended = (Phase.DONE, Phase.SHORT)
+        entries = [Entry(run, state, read_json(run.folder / RESULT)) for run, state in found if state.phase in ended]
+        entries.sort(key=lambda entry: (entry.converged, entry.series, entry.mach))
+        unfinished = [(run, state) for run, state in found if state.phase not in ended]
         return Results(sweep, entries, unfinished, Published.of(sweep))
 
     @cached_property
@@ -104,9 +110,14 @@ class Results:
         return [entry for entry in self.entries if entry.has_derivatives]
 
     @cached_property
+    def uncertainty(self) -> str:
+        """What the uncertainties hold: with or without the mesh's part."""
+        return table_one.uncertainty_of(entry.result for entry in self.with_derivatives)
+
+    @cached_property
     def series(self) -> dict[tuple[str, str, float], list[Entry]]:
         out: dict[tuple[str, str, float], list[Entry]] = {}
-        for entry in self.with_derivatives:
+        for entry in sorted(self.with_derivatives, key=lambda entry: entry.mach):
             out.setdefault(entry.series, []).append(entry)
         return out
 

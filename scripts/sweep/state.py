@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import os
 import re
+import time
 from dataclasses import dataclass
 from enum import Enum
 from pathlib import Path
@@ -16,13 +17,17 @@ from sweep.text import duration
 LOCK, LOG, RECORD, END = "lock", "log.txt", "run.json", "end.json"
 RESULT, PROGRESS = "result.json", "progress.json"  # by the program; the latter while it runs
 GOOD_ENDS = ("converged", "completed")
+SHORT_END = "not_converged"  # to the end, but something that was asked for was not reached
 TAIL = 20_000  # bytes of a log that are searched for errors
 
 
 class Phase(Enum):
+    """A run that is not converged came to its end with all of its numbers, but some of them are not what was asked for."""
+
     WAITING = "waiting"
     RUNNING = "running"
     DONE = "done"
+    SHORT = "not converged"
     INTERRUPTED = "interrupted"
     FAILED = "failed"
 
@@ -31,7 +36,7 @@ class Phase(Enum):
 class State:
     phase: Phase
     detail: str = ""
-    seconds: float | None = None  # of wall clock, when it is done
+    seconds: float | None = None  # of wall clock, when it came to its end
 
 
 def read_json(path: Path) -> dict:
@@ -60,14 +65,23 @@ def log_tail(folder: Path) -> str:
 
 
 def progress(folder: Path) -> str:
-    """The latest progress of a run: "steady 1e-6.1, 13 s left", "step 12/72, 3 min 20 s left", "linear solves"."""
+    """The latest progress of a run: "steady 1e-6.1, steady in 13 s", "step 12/72, 3 min 20 s left", "linear solves"."""
     found = read_json(folder / PROGRESS)
     phase, left = found.get("phase", "starting"), found.get("seconds_left")
     if phase == "steady":
         phase = f"steady 1e-{found['orders']:.1f}"
+        return phase if left is None else f"{phase}, steady in {duration(left)}"
     elif phase == "motion":
         phase = f"step {found['step']:.0f}/{found['of_steps']:.0f}"
     return phase if left is None else f"{phase}, {duration(left)} left"
+
+
+def seconds_spent(run: Run) -> float:
+    """Wall clock since the latest attempt at a run began."""
+    try:
+        return time.time() - (run.folder / RECORD).stat().st_mtime
+    except OSError:
+        return 0.0
 
 
 def reason(folder: Path) -> str:
@@ -114,8 +128,9 @@ def state_at_rest(run: Run) -> State:
             return State(Phase.INTERRUPTED, f"to go on to {run.settings['unsteady.cycles']:g} cycles")
         return State(Phase.WAITING, "settings changed since it ran")
     status = result.get("status")
-    if status in GOOD_ENDS:
-        return State(Phase.DONE, result.get("message") or status, result.get("performance", {}).get("wall_s"))
+    if status in (*GOOD_ENDS, SHORT_END):
+        phase = Phase.SHORT if status == SHORT_END else Phase.DONE
+        return State(phase, result.get("message") or status, result.get("performance", {}).get("wall_s"))
     if status == "interrupted" or end.get("stopped") or not (end or status):
         return State(Phase.INTERRUPTED, "goes on from its checkpoint" if checkpoints(run) else "starts again")
     return State(Phase.FAILED, end.get("reason") or reason(run.folder) or status or "no reason found; see its log.txt")

@@ -5,7 +5,7 @@ from __future__ import annotations
 from statistics import median
 
 from sweep.plan import Run, Sweep
-from sweep.state import Phase, State, read_state
+from sweep.state import Phase, State, read_state, seconds_spent
 from sweep.text import aligned, duration
 
 
@@ -14,18 +14,18 @@ def states(sweep: Sweep) -> list[tuple[Run, State]]:
 
 
 def time_left(found: list[tuple[Run, State]]) -> float | None:
-    """Seconds for what is not done, by the runs of the same method and mesh that are; None while there are none of them.
-
-    A run that is at work counts as half.
+    """Seconds for what is not done, by the runs of the same method and mesh that are; None while that cannot be known: there are
+    none of them, or a run at work has taken longer than they.
     """
     left = 0.0
     for run, state in found:
-        share = {Phase.WAITING: 1.0, Phase.INTERRUPTED: 1.0, Phase.RUNNING: 0.5}.get(state.phase, 0.0)
-        if share:
-            alike = [s.seconds for r, s in found if s.seconds is not None and (r.method, r.mesh) == (run.method, run.mesh)]
-            if not alike:
-                return None
-            left += share * median(alike)
+        if state.phase not in (Phase.WAITING, Phase.INTERRUPTED, Phase.RUNNING):
+            continue
+        alike = [s.seconds for r, s in found if s.seconds is not None and (r.method, r.mesh) == (run.method, run.mesh)]
+        spent = seconds_spent(run) if state.phase is Phase.RUNNING else 0.0
+        if not alike or spent > median(alike):
+            return None
+        left += median(alike) - spent
     return left
 
 

@@ -106,14 +106,14 @@ def derivative_table(results: Results) -> Table:
     rows = []
     for entry in results.with_derivatives:
         found = entry.result["derivatives"]
-        cells: list[Cell] = [entry.run.name, entry.mach, entry.run.alpha, entry.here.center]
+        cells: list[Cell] = [entry.label, entry.mach, entry.run.alpha, entry.here.center]
         for name in names:
             cells += [found[name]["value"], found[name]["uncertainty"]] if name in found else [None, None]
         rows.append(cells)
     formats = ["", ".2f", "g", "g", *[".3f", ".1g"] * 2, *[".2f", ".1g"] * 4]
     return Table(
         "derivatives",
-        "Derivatives, per rad; rates times length / 2V; moments about the centre of the run",
+        f"Derivatives, per rad; rates times length / 2V; moments about the centre of the run; ±: {results.uncertainty}",
         columns,
         rows,
         formats,
@@ -127,7 +127,7 @@ def force_table(results: Results) -> Table:
     for entry in results.entries:
         forces, reference = entry.result["forces"], entry.result["reference"]
         center = reference["moment_center"][0] / reference["length"]
-        rows.append([entry.run.name, entry.mach, entry.run.alpha, forces["CA"], forces["CN"], forces["Cm"], center])
+        rows.append([entry.label, entry.mach, entry.run.alpha, forces["CA"], forces["CN"], forces["Cm"], center])
     return Table(
         "forces",
         "Steady flow: axial and normal force, pitching moment",
@@ -155,7 +155,7 @@ def cost_table(results: Results) -> Table:
         cost, mesh = entry.result["performance"], entry.result["mesh"]
         halo = cost["halo_fraction"]
         rows.append(
-            [entry.run.name, mesh["cells"], entry.result["ranks"], cost["iterations"], cost["wall_s"], cost["cpu_s"]]
+            [entry.label, mesh["cells"], entry.result["ranks"], cost["iterations"], cost["wall_s"], cost["cpu_s"]]
             + [
                 cost["core_us_per_cell_iteration"],
                 cost["bytes_per_cell"],

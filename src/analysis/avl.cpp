@@ -63,7 +63,9 @@ std::string header(const FlightPoint& point) {
   const Vec3& center = reference.moment_center;
   std::string out(rule);
   out += " alphadot: inviscid stability derivatives in the format of AVL\n\n";
-  out += fmt::format(" Configuration: {}\n\n", point.title);
+  out += fmt::format(" Configuration: {}\n", point.title);
+  if (!point.status.empty()) out += fmt::format(" Status: {}\n", point.status);
+  out += "\n";
   out += fmt::format("  Sref ={:>9.5g}       Cref ={:>9.5g}       Bref ={:>9.5g}\n", reference.area,
                      reference.length, reference.length);
   out += fmt::format("  Xref ={:>9.5g}       Yref ={:>9.5g}       Zref ={:>9.5g}\n\n", center.x, center.y,

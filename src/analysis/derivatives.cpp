@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 #include "core/error.hpp"
 
@@ -35,6 +36,12 @@ const CoefficientsOf<Estimate>& column(const DerivativeSet& set, Variable variab
 }
 
 }  // namespace
+
+void EstimatedDerivatives::add(std::string source, DerivativeSetOf<Real> share) {
+  for (auto& [variable, column] : derivatives)
+    for (int i = 0; i < column.size(); ++i) column[i].uncertainty += share.at(variable)[i];
+  parts.push_back({std::move(source), std::move(share)});
+}
 
 DerivativeSet moment_transfer(const DerivativeSet& about_old, Real dx) {
   constexpr std::string_view purpose = "moving the axis of rotation";

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <map>
+#include <set>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "analysis/coefficients.hpp"
 #include "analysis/estimate.hpp"
@@ -37,6 +39,24 @@ std::string derivative_name(std::string_view coefficient, Variable variable);
 template <class T>
 using DerivativeSetOf = std::map<Variable, CoefficientsOf<T>>;
 using DerivativeSet = DerivativeSetOf<Estimate>;
+
+/// One source of uncertainty, "linear", "mesh", "time_step", ..., and its share in that of every entry.
+struct UncertaintyPart {
+  std::string source;
+  DerivativeSetOf<Real> share;
+};
+
+/// Derivatives, and the parts that their uncertainties are the sums of.
+struct EstimatedDerivatives {
+  DerivativeSet derivatives;
+  std::vector<UncertaintyPart> parts;
+  /// Columns that rest on something that did not reach what was asked for.
+  std::set<Variable> unconverged = {};
+
+  const CoefficientsOf<Estimate>& at(Variable variable) const { return derivatives.at(variable); }
+  /// Adds a part to the uncertainties.
+  void add(std::string source, DerivativeSetOf<Real> share);
+};
 
 /// All derivatives about a centre, which is also the axis of rotation, moved aft by `dx` reference lengths.
 ///

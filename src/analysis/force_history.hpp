@@ -13,6 +13,7 @@ struct ForceHistory {
   std::vector<Real> angle;  ///< rad, the angle that the motion drives; may be empty for a step
   std::vector<Coefficients> loads;
   std::vector<Coefficients> bounds;  ///< largest error of `loads` from inner convergence; may be empty
+  Real time_step = 0;  ///< t*, of the march in time that made the loads; 0: they are exact in time
 
   /// Throws InputError when the vectors differ in length.
   void validate() const;

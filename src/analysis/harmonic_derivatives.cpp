@@ -2,10 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 #include <optional>
 
 #include "core/error.hpp"
+#include "march/time_levels.hpp"
 
 namespace alphadot {
 
@@ -68,15 +70,32 @@ HarmonicDerivatives harmonic_derivatives(const ForceHistory& history, MotionKind
   HarmonicDerivatives result;
   result.mean_angle = angle.mean.value;
   result.amplitude = std::hypot(angle.in_phase.value, angle.out_of_phase.value);
-  CoefficientsOf<Estimate> slope, rate;
-  for (int c = 0; c < Coefficients::size(); ++c) {
+  for (int c = 0; c < Coefficients::size(); ++c)
     result.fits[c] = fit_harmonics(basis, history.time, history.load(c), {}, history.bound(c));
-    slope[c] = 1 / result.amplitude * result.fits[c].in_phase.estimate();
-    rate[c] = meaning.rate_sign / (basis.reduced_frequency * result.amplitude) *
-              result.fits[c].out_of_phase.estimate();
+
+  const Real k = basis.reduced_frequency, damping = damping_share(k * history.time_step);
+  const Real per_angle = 1 / result.amplitude, per_rate = 1 / (k * result.amplitude);
+  DerivativeSetOf<Real> fit, inner, time_step, amplitude;
+  const auto add = [&](Variable variable, int c, const FittedAmplitude& part, Real scale, Real third,
+                       Real damped) {
+    result.estimated.derivatives[variable][c].value = scale * part.value;
+    fit[variable][c] = std::abs(scale) * std::hypot(part.residual, part.half_cycles);
+    inner[variable][c] = std::abs(scale) * part.samples;
+    amplitude[variable][c] = std::abs(scale * third);
+    time_step[variable][c] = damped;
+  };
+  for (int c = 0; c < Coefficients::size(); ++c) {
+    const HarmonicFit& found = result.fits[c];
+    const auto third = basis.harmonics >= 3 ? found.overtones[1] : std::array<Real, 2>{};
+    const Real rate = per_rate * std::abs(found.out_of_phase.value);
+    if (meaning.in_phase)
+      add(*meaning.in_phase, c, found.in_phase, per_angle, 3 * third[0], k * damping * rate);
+    add(meaning.out_of_phase, c, found.out_of_phase, meaning.rate_sign * per_rate, third[1], damping * rate);
   }
-  if (meaning.in_phase) result.derivatives[*meaning.in_phase] = slope;
-  result.derivatives[meaning.out_of_phase] = rate;
+  result.estimated.add("fit", fit);
+  result.estimated.add("inner", inner);
+  result.estimated.add("time_step", time_step);
+  result.estimated.add("amplitude", amplitude);
   return result;
 }
 

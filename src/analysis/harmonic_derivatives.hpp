@@ -9,7 +9,7 @@
 namespace alphadot {
 
 struct HarmonicDerivatives {
-  DerivativeSet derivatives;
+  EstimatedDerivatives estimated;
   CoefficientsOf<HarmonicFit> fits;  ///< basis in phase with the angle: sin is angle, cos is rate
   Real mean_angle = 0;               ///< rad
   Real amplitude = 0;                ///< rad
@@ -35,6 +35,13 @@ struct HarmonicDerivatives {
 /// body is V cos(a0) / cos(alpha) while the loads stay normalised with the fixed V. X_alpha is therefore the
 /// slope at constant axial velocity (flight mechanics' X_w V): it exceeds the slope at constant speed by
 /// tan(a0) dX/d(ln V), and nothing is renormalised here, for the Mach number's share could not be taken out.
+///
+/// Parts of the uncertainty: "fit" and "inner" are those of FittedAmplitude; "amplitude" is what a finite
+/// amplitude does, from the third harmonic: a term cubic in the angle puts three times its third harmonic
+/// into the first, one of angle^2 rate as much of it; "time_step" is the damping that the march in time
+/// leaves (see fitted_step): k damping_share of the rate derivative in X_angle, and in X_rate
+/// damping_share of itself, an upper limit as long as 2 k X_rate' < X_rate, X_rate' being the next term in
+/// frequency. That the limit k -> 0 is something else is in none of them.
 ///
 /// basis.phase is ignored (see above). Throws InputError as fit_harmonics does, and when the motion has no
 /// harmonic form or the angle's history is not a sine of this reduced frequency.

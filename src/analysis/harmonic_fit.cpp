@@ -59,7 +59,7 @@ Window window_of(const HarmonicBasis& basis, std::span<const Real> time, std::sp
   if (window.cycles < basis.least_cycles - 1e-6)
     refuse(fmt::format("the history holds {:.2f} cycles, of which the first {:.2f} are discarded",
                        window.cycles + basis.discarded_cycles, basis.discarded_cycles),
-           fmt::format("compute at least {:.2f} cycles", basis.discarded_cycles + basis.least_cycles));
+           fmt::format("set unsteady.cycles = {:g} or more", basis.discarded_cycles + basis.least_cycles));
   // Round-off in the times must not decide whether the sample on the border belongs to the window.
   const auto first = std::ranges::lower_bound(time, window.start - 1e-9 * period) - time.begin();
   window.time = tail_of(time, first);
@@ -67,10 +67,12 @@ Window window_of(const HarmonicBasis& basis, std::span<const Real> time, std::sp
   const Size n = window.time.size();
   Real widest_step = window.time(0) - window.start;
   for (Size i = 1; i < n; ++i) widest_step = std::max(widest_step, window.time(i) - window.time(i - 1));
-  if (widest_step * basis.harmonics > period / 4)
-    refuse(fmt::format("a step of {:.3f} cycles is too long for harmonic {}", widest_step / period,
-                       basis.harmonics),
-           "take more steps per cycle or fewer harmonics");
+  // Round-off in the times must not decide here either.
+  if (widest_step * basis.harmonics * steps_per_harmonic > (1 - 1e-9) * period)
+    refuse(
+        fmt::format("a time step of {:.3f} cycles is too long for multiple {} of the frequency",
+                    widest_step / period, basis.harmonics),
+        fmt::format("set unsteady.steps_per_cycle = {} or more", steps_per_harmonic * basis.harmonics + 1));
   window.weights = weights.empty() ? step_weights(window.time) : VectorXd(tail_of(weights, first));
   window.bounds = bounds.empty() ? VectorXd(VectorXd::Zero(n)) : VectorXd(tail_of(bounds, first));
   return window;

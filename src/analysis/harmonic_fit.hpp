@@ -6,18 +6,19 @@
 #include <vector>
 
 #include "analysis/estimate.hpp"
+#include "core/fit_needs.hpp"
 
 namespace alphadot {
 
 /// The basis 1, sin n(k t* + phase), cos n(k t* + phase) for n = 1 .. harmonics [, t*], on the samples after
 /// the discarded start. t* = 2 V t / l is zero where the motion starts.
 struct HarmonicBasis {
-  Real reduced_frequency = 0;   ///< k = omega l / (2V), so that the angle is k t*
-  Real phase = 0;               ///< rad
-  int harmonics = 3;            ///< highest multiple of k; three, as the response of a symmetric body is odd
-  bool drift = false;           ///< with a term linear in t*
-  Real discarded_cycles = 0.5;  ///< the start-up that is left out
-  Real least_cycles = 1;        ///< shortest window that is fitted
+  Real reduced_frequency = 0;                          ///< k = omega l / (2V), so that the angle is k t*
+  Real phase = 0;                                      ///< rad
+  int harmonics = fitted_harmonics;                    ///< highest multiple of k
+  bool drift = false;                                  ///< with a term linear in t*
+  Real discarded_cycles = alphadot::discarded_cycles;  ///< the start-up that is left out
+  Real least_cycles = least_fitted_cycles;             ///< shortest window that is fitted
 };
 
 /// A fitted amplitude and the three sources of its uncertainty, each about 95 %.

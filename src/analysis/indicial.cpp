@@ -4,9 +4,11 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <string>
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/fit_needs.hpp"
 
 namespace alphadot {
 
@@ -48,8 +50,9 @@ void check(std::span<const Real> time, std::span<const Real> y, std::span<const 
   if (time.size() != y.size() || (!bounds.empty() && bounds.size() != time.size()))
     throw InputError("", 0, "step response: times, signal and bounds differ in length",
                      "give one of each a sample");
-  if (time.size() < 12)
-    throw InputError("", 0, "step response: fewer than 12 samples", "take more time steps");
+  if (time.size() < static_cast<std::size_t>(least_step_samples))
+    throw InputError("", 0, "step response: too few samples",
+                     "set unsteady.steps = " + std::to_string(least_step_samples - 1) + " or more");
   if (!std::ranges::all_of(y, finite) || !std::ranges::all_of(time, finite))
     throw InputError("", 0, "step response: the signal or its times are not finite",
                      "look for the step at which the run diverged");
@@ -58,18 +61,35 @@ void check(std::span<const Real> time, std::span<const Real> y, std::span<const 
                      "remove repeated steps, as after a restart");
 }
 
+bool is_monotone(const std::array<Real, 6>& values) {
+  return std::ranges::is_sorted(values) || std::ranges::is_sorted(values, std::greater{});
+}
+
+/// 0 when there are no bounds.
+Real largest_bound_after(Real start, std::span<const Real> time, std::span<const Real> bounds) {
+  Real out = 0;
+  for (std::size_t i = 0; i < bounds.size(); ++i)
+    if (time[i] >= start) out = std::max(out, bounds[i]);
+  return out;
+}
+
 }  // namespace
 
 StepFit fit_step(std::span<const Real> time, std::span<const Real> y, std::span<const Real> bounds) {
   check(time, y, bounds);
   const Polyline response(time, y, 1);
   const Real end = time.back(), h = end / 10;
+  std::array<Real, 6> half;  // means over half tenths
+  for (int i = 0; i < 6; ++i)
+    half[i] = response.integral(end - (6 - i) * h / 2, end - (5 - i) * h / 2) / (h / 2);
   std::array<Real, 3> mean;
-  for (int i = 0; i < 3; ++i) mean[i] = response.integral(end - (3 - i) * h, end - (2 - i) * h) / h;
+  for (int i = 0; i < 3; ++i) mean[i] = (half[2 * i] + half[2 * i + 1]) / 2;
 
   const Real change = mean[2] - mean[1];
+  const bool is_over =
+      !is_monotone(half) || std::abs(change) <= largest_bound_after(end - 3 * h, time, bounds);
   const Real rho = mean[1] != mean[0] ? change / (mean[1] - mean[0]) : 0;
-  const Real series = rho > 0 && rho < 0.8 ? rho / (1 - rho) : 0;  // rho + rho^2 + ...
+  const Real series = !is_over && rho > 0 && rho < 0.8 ? rho / (1 - rho) : 0;  // rho + rho^2 + ...
   const Real final = mean[2] + change * series;
   const auto [low, high] = std::minmax({mean[0], mean[1], mean[2], final});
   StepFit fit;
@@ -78,30 +98,42 @@ StepFit fit_step(std::span<const Real> time, std::span<const Real> y, std::span<
 
   const auto deficit = [&](const Polyline& line) { return fit.final.value * end - line.integral(0, end); };
   const Real whole = deficit(response), halved = deficit(Polyline(time, y, 2));
-  fit.deficit = {whole + fit.tail,
-                 fit.final.uncertainty * end + std::abs(fit.tail) + std::abs(whole - halved)};
+  fit.sampling = std::abs(whole - halved);
+  fit.deficit = {whole + fit.tail, fit.final.uncertainty * end + std::abs(fit.tail) + fit.sampling};
   if (!bounds.empty()) {
-    const Real worst = *std::ranges::max_element(bounds);
-    fit.final.uncertainty += worst;
-    fit.deficit.uncertainty += worst * end + Polyline(time, bounds, 1).integral(0, end);
+    fit.inner_of_final = *std::ranges::max_element(bounds);
+    fit.inner_of_deficit = fit.inner_of_final * end + Polyline(time, bounds, 1).integral(0, end);
+    fit.final.uncertainty += fit.inner_of_final;
+    fit.deficit.uncertainty += fit.inner_of_deficit;
   }
   return fit;
 }
 
-DerivativeSet step_derivatives(const ForceHistory& history, MotionKind motion, const Coefficients& initial,
-                               Real step) {
+EstimatedDerivatives step_derivatives(const ForceHistory& history, MotionKind motion,
+                                      const Coefficients& initial, Real step) {
   if (motion != MotionKind::step_alpha && motion != MotionKind::step_q)
     throw InputError("", 0, "step response: the motion is not a step", "use step_alpha or step_q");
   if (step == 0) throw InputError("", 0, "step response: the step is zero", "give motion.amplitude a value");
   history.validate();
-  CoefficientsOf<Estimate> slope, rate;
+  EstimatedDerivatives out;
+  DerivativeSetOf<Real> fit, inner, time_step;
+  const auto add = [&](Variable variable, int c, const Estimate& found, Real inner_part, Real sampling) {
+    out.derivatives[variable][c].value = found.value / step;
+    fit[variable][c] = (found.uncertainty - inner_part - sampling) / std::abs(step);
+    inner[variable][c] = inner_part / std::abs(step);
+    time_step[variable][c] = sampling / std::abs(step);
+  };
   for (int c = 0; c < initial.size(); ++c) {
-    const StepFit fit = fit_step(history.time, history.load(c), history.bound(c));
-    slope[c] = 1 / step * (fit.final - Estimate{initial[c], 0});
-    rate[c] = -1 / step * fit.deficit;
+    const StepFit found = fit_step(history.time, history.load(c), history.bound(c));
+    const Variable slope = motion == MotionKind::step_q ? Variable::q : Variable::alpha;
+    add(slope, c, found.final - Estimate{initial[c], 0}, found.inner_of_final, 0);
+    if (slope == Variable::alpha)
+      add(Variable::alphadot, c, -found.deficit, found.inner_of_deficit, found.sampling);
   }
-  if (motion == MotionKind::step_q) return {{Variable::q, slope}};
-  return {{Variable::alpha, slope}, {Variable::alphadot, rate}};
+  out.add("fit", fit);
+  out.add("inner", inner);
+  out.add("time_step", time_step);
+  return out;
 }
 
 }  // namespace alphadot

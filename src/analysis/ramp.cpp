@@ -3,10 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
 
 #include "analysis/least_squares.hpp"
 #include "core/error.hpp"
+#include "core/fit_needs.hpp"
 
 namespace alphadot {
 
@@ -27,9 +30,10 @@ LeastSquares fit_line(const VectorXd& x, const VectorXd& y) {
   return least_squares(basis, y, VectorXd::Ones(x.size()));
 }
 
-/// Slope and intercept of y against x, x in units of its range.
+/// Slope and intercept of y against x, x in units of its range: values, uncertainties of the fit, and worst
+/// cases of the bounds.
 struct Line {
-  Estimate slope, intercept;
+  std::array<Real, 2> value, fit, inner;
 };
 
 Line line_with_uncertainty(const VectorXd& x, const VectorXd& y, const VectorXd& bounds) {
@@ -38,23 +42,27 @@ Line line_with_uncertainty(const VectorXd& x, const VectorXd& y, const VectorXd&
   const VectorXd change =
       fit_line(x.tail(half), y.tail(half)).parameters - fit_line(x.head(half), y.head(half)).parameters;
   const VectorXd random = whole.uncertainty(), worst = whole.worst_case(bounds);
-  const auto estimate = [&](Size i) {
-    return Estimate{whole.parameters(i), std::hypot(random(i), change(i)) + worst(i)};
-  };
-  return {estimate(0), estimate(1)};
+  Line out;
+  for (int i = 0; i < 2; ++i) {
+    const auto n = static_cast<std::size_t>(i);
+    out.value[n] = whole.parameters(i);
+    out.fit[n] = std::hypot(random(i), change(i));
+    out.inner[n] = worst(i);
+  }
+  return out;
 }
 
 }  // namespace
 
-DerivativeSet ramp_derivatives(const ForceHistory& history, const Coefficients& initial, Real initial_angle,
-                               Real transient) {
+EstimatedDerivatives ramp_derivatives(const ForceHistory& history, const Coefficients& initial,
+                                      Real initial_angle, Real transient) {
   history.validate();
   const auto first = std::ranges::lower_bound(history.time, transient) - history.time.begin();
   const auto samples = static_cast<Size>(history.time.size()) - first;
-  if (samples < 8 || history.angle.empty())
+  if (samples < least_ramp_samples || history.angle.empty())
     throw InputError("", 0,
                      fmt::format("ramp: {} samples after the transient of t* = {:g}", samples, transient),
-                     "compute a longer ramp or shorter steps");
+                     "set unsteady.steps to more, or compute a longer ramp");
   const VectorXd time = tail_of(history.time, first);
   const VectorXd angle = tail_of(history.angle, first).array() - initial_angle;
   const Real span = time(samples - 1) - time(0), rise = angle(samples - 1) - angle(0);
@@ -64,17 +72,25 @@ DerivativeSet ramp_derivatives(const ForceHistory& history, const Coefficients& 
     throw InputError("", 0, "ramp: the angle does not grow at a constant rate after the transient",
                      "end the record where the ramp ends");
 
-  CoefficientsOf<Estimate> slope, rate_part;
+  EstimatedDerivatives out;
+  DerivativeSetOf<Real> fit, inner;
   for (int c = 0; c < initial.size(); ++c) {
     const VectorXd y = tail_of(history.load(c), first).array() - initial[c];
     const VectorXd bounds =
         history.bounds.empty() ? VectorXd(VectorXd::Zero(samples)) : tail_of(history.bound(c), first);
     // The fit's columns are of order one, whatever the rise in radians.
-    const Line fit = line_with_uncertainty(1 / rise * angle, y, bounds);
-    slope[c] = 1 / rise * fit.slope;
-    rate_part[c] = 1 / rate * fit.intercept;
+    const Line line_fit = line_with_uncertainty(1 / rise * angle, y, bounds);
+    const std::array columns{std::pair{Variable::alpha, rise}, std::pair{Variable::alphadot, rate}};
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+      const auto [variable, unit] = columns[i];
+      out.derivatives[variable][c].value = line_fit.value[i] / unit;
+      fit[variable][c] = line_fit.fit[i] / std::abs(unit);
+      inner[variable][c] = line_fit.inner[i] / std::abs(unit);
+    }
   }
-  return {{Variable::alpha, slope}, {Variable::alphadot, rate_part}};
+  out.add("fit", fit);
+  out.add("inner", inner);
+  return out;
 }
 
 }  // namespace alphadot

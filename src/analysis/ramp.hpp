@@ -12,9 +12,10 @@ namespace alphadot {
 /// and `initial_angle` (rad) belong to the steady state before; samples from t* = `transient` on are used: a
 /// start passes a body of length L in about 2 L / l * M / (M - 1). Uncertainty: 95 % of the fit, in
 /// quadrature with the difference of the two halves of the window (which shows a start not yet over, or
-/// curvature); plus the worst case of the history's bounds. Throws InputError when fewer than 8 samples
-/// remain or the rate is not constant (to 1e-6 of the rise) on them.
-DerivativeSet ramp_derivatives(const ForceHistory& history, const Coefficients& initial, Real initial_angle,
-                               Real transient);
+/// curvature), the part "fit"; plus the worst case of the history's bounds, the part "inner". Backward
+/// differences of second order are exact along a ramp. Throws InputError when fewer than
+/// least_ramp_samples remain or the rate is not constant (to 1e-6 of the rise) on them.
+EstimatedDerivatives ramp_derivatives(const ForceHistory& history, const Coefficients& initial,
+                                      Real initial_angle, Real transient);
 
 }  // namespace alphadot

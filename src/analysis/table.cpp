@@ -30,54 +30,68 @@ std::vector<std::string> sources_of(std::span<const TableRow> rows) {
 }  // namespace
 
 std::vector<TableRow> rows_of(const DerivativeSet& derivatives, const std::string& method, Axes axes,
-                              std::span<const UncertaintyPart> parts) {
+                              std::span<const UncertaintyPart> parts, const std::set<Variable>& unconverged) {
   std::vector<TableRow> rows;
   for (const auto& [variable, values] : derivatives)
     for (int c = 0; c < values.size(); ++c)
       if (values[c].value != 0 || values[c].uncertainty != 0) {
         auto& row = rows.emplace_back(TableRow{
             derivative_name(names_in(axes)[static_cast<std::size_t>(c)], variable), values[c], method, {}});
+        row.converged = !unconverged.contains(variable);
         for (const auto& [source, share] : parts) row.parts.emplace_back(source, share.at(variable)[c]);
       }
   return rows;
 }
 
-std::string reference_text(const ReferenceSettings& reference, Axes axes) {
+std::string uncertainty_scope(std::span<const TableRow> rows) {
+  const auto has_mesh = [](const TableRow& row) {
+    return std::ranges::any_of(row.parts, [](const auto& part) { return part.first == "mesh"; });
+  };
+  return std::string(!rows.empty() && std::ranges::all_of(rows, has_mesh) ? "solver and mesh" : solver_only);
+}
+
+std::string head_text(const TableHead& head, Axes axes) {
+  const auto& reference = head.reference;
   const Vec3& center = reference.moment_center;
   const char* axes_text =
       axes == Axes::body
           ? "body: CA aft, CY starboard, CN up; Cl, Cm, Cn about x forward, y starboard, z down"
           : "stability: CD and CL along and across the projected wind; Cl, Cn about axes turned "
             "with alpha; Cm nose up";
-  return fmt::format(
+  std::string out = fmt::format(
       "Reference: length {:g}, area {:g}, moment centre and axis of rotation ({:g}, {:g}, {:g})\n"
       "Axes: {}\n"
       "Units: per rad; rates times length / 2V\n",
       reference.length, reference.area, center.x, center.y, center.z, axes_text);
+  if (!head.status.empty()) out += "Status: " + head.status + "\n";
+  if (!head.uncertainty.empty()) out += "Uncertainty: " + head.uncertainty + "\n";
+  return out;
 }
 
-std::string derivative_table(std::span<const TableRow> rows, const ReferenceSettings& reference, Axes axes) {
+std::string derivative_table(std::span<const TableRow> rows, const TableHead& head, Axes axes) {
   std::size_t width = 4;
   for (const auto& row : rows) width = std::max(width, row.name.size());
-  std::string out = reference_text(reference, axes);
-  out += fmt::format("{:<{}} {:>13}   {:<12} ", "name", width, "value", "uncertainty");
+  std::string out = head_text(head, axes);
+  out += fmt::format("{:<{}} {:>13}   {:<12} ", "name", width, "value",
+                     head.uncertainty == solver_only ? "solver only" : "uncertainty");
   for (const auto& source : sources_of(rows)) out += fmt::format("{:<9} ", source);
   out += "method\n";
   for (const auto& row : rows) {
     out +=
         fmt::format("{:<{}} {:>13.6g} ± {:<12.2g} ", row.name, width, row.value.value, row.value.uncertainty);
     for (const auto& [source, share] : row.parts) out += fmt::format("{:<9.2g} ", share);
-    out += row.method + "\n";
+    out += row.method + (row.converged ? "\n" : "; not converged\n");
   }
   return out;
 }
 
-std::string derivative_csv(std::span<const TableRow> rows, const ReferenceSettings& reference, Axes axes) {
-  std::string out = prefixed(reference_text(reference, axes), "# ") + "name,value,uncertainty,method";
+std::string derivative_csv(std::span<const TableRow> rows, const TableHead& head, Axes axes) {
+  std::string out = prefixed(head_text(head, axes), "# ") + "name,value,uncertainty,method,converged";
   for (const auto& source : sources_of(rows)) out += "," + source;
   out += "\n";
-  for (const auto& [name, value, method, parts] : rows) {
-    out += fmt::format("{},{:.17g},{:.17g},\"{}\"", name, value.value, value.uncertainty, method);
+  for (const auto& [name, value, method, parts, converged] : rows) {
+    out += fmt::format("{},{:.17g},{:.17g},\"{}\",{}", name, value.value, value.uncertainty, method,
+                       converged ? "yes" : "no");
     for (const auto& [source, share] : parts) out += fmt::format(",{:.17g}", share);
     out += "\n";
   }

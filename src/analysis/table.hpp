@@ -1,8 +1,10 @@
 // Derivatives as text that a person or a spreadsheet reads.
 #pragma once
 
+#include <set>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -11,36 +13,44 @@
 
 namespace alphadot {
 
-/// One source of uncertainty, "linear", "limiter" or "mesh", and its share in that of every entry.
-struct UncertaintyPart {
-  std::string source;
-  DerivativeSetOf<Real> share;
-};
-
 /// One line of a table.
 struct TableRow {
   std::string name;  ///< as in result.json, "Cm_alphadot"
   Estimate value;
   std::string method;                                    ///< "plunge, k = 0.01", "linear solve", ...
   std::vector<std::pair<std::string, Real>> parts = {};  ///< of the uncertainty, by source; may be empty
+  bool converged = true;  ///< everything that it rests on reached what was asked for
+};
+
+/// What the uncertainties of rows hold: the mesh's part only when it is one of the parts.
+inline constexpr std::string_view solver_only = "solver only; mesh not assessed";
+std::string uncertainty_scope(std::span<const TableRow> rows);
+
+/// What a table's numbers refer to and how far to be trusted.
+struct TableHead {
+  ReferenceSettings reference;
+  std::string status = "";       ///< of the run, and what was not reached; empty: not known
+  std::string uncertainty = "";  ///< its scope; empty: not known
 };
 
 /// A row for each entry of the set, column by column; what symmetry makes exactly zero is left out. The parts
-/// are those that the uncertainties of the set are the sums of, in all of its columns.
+/// are those that the uncertainties of the set are the sums of, in all of its columns; columns of
+/// `unconverged` variables are marked.
 std::vector<TableRow> rows_of(const DerivativeSet& derivatives, const std::string& method,
-                              Axes axes = Axes::body, std::span<const UncertaintyPart> parts = {});
+                              Axes axes = Axes::body, std::span<const UncertaintyPart> parts = {},
+                              const std::set<Variable>& unconverged = {});
 
-/// What every number refers to: reference length and area, moment centre, axes, normalisation of rates.
-std::string reference_text(const ReferenceSettings& reference, Axes axes = Axes::body);
+/// What every number refers to: reference length and area, moment centre, axes, normalisation of rates;
+/// status and scope of the uncertainties where they are known.
+std::string head_text(const TableHead& head, Axes axes = Axes::body);
 
-/// Aligned lines "name value ± uncertainty method" below the reference text, with a column for each part of
-/// the uncertainty, the same in all rows.
-std::string derivative_table(std::span<const TableRow> rows, const ReferenceSettings& reference,
-                             Axes axes = Axes::body);
+/// Aligned lines "name value ± uncertainty method" below the head, with a column for each part of the
+/// uncertainty, the same in all rows. The column of uncertainties that leave the mesh out is called "solver
+/// only"; a row that is not converged says so.
+std::string derivative_table(std::span<const TableRow> rows, const TableHead& head, Axes axes = Axes::body);
 
-/// The same as comma-separated values: comment lines with the reference, a header, full precision; the parts
-/// behind the method.
-std::string derivative_csv(std::span<const TableRow> rows, const ReferenceSettings& reference,
-                           Axes axes = Axes::body);
+/// The same as comma-separated values: comment lines with the head, a header, full precision; "converged"
+/// (yes or no) and the parts behind the method.
+std::string derivative_csv(std::span<const TableRow> rows, const TableHead& head, Axes axes = Axes::body);
 
 }  // namespace alphadot

@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <utility>
@@ -38,18 +39,30 @@ void check_restart(const FlowCase& flow) {
         "name that of the steady state with --restart FILE, or begin in another folder with --out DIR");
 }
 
+/// Stability axes mix rolling and yawing.
+std::set<Variable> on_stability_axes(std::set<Variable> unconverged) {
+  for (const auto& [one, other] : {std::pair{Variable::p, Variable::r}, std::pair{Variable::r, Variable::p}})
+    if (unconverged.contains(one)) unconverged.insert(other);
+  return unconverged;
+}
+
 /// The same numbers for spreadsheets, AVL's readers and JSBSim.
-void write_tables(const FlowCase& flow, const DerivativeSet& derivatives, const std::vector<TableRow>& rows) {
+void write_tables(const FlowCase& flow, RunStatus end, const EstimatedDerivatives& estimated,
+                  const std::vector<TableRow>& rows) {
   const Case& settings = flow.settings();
-  const FlightPoint point{settings.title, settings.reference, settings.freestream,
-                          coefficients(flow.steady_report().total, settings), derivatives};
+  const auto& derivatives = estimated.derivatives;
+  const auto head = flow.table_head(end, rows);
+  const FlightPoint point{settings.title,      settings.reference,
+                          settings.freestream, coefficients(flow.steady_report().total, settings),
+                          derivatives,         head.status};
   const std::string stem = flow.folder() + "/derivatives";
-  replace_file_with(stem + ".csv", derivative_csv(rows, settings.reference));
+  replace_file_with(stem + ".csv", derivative_csv(rows, head));
   const auto stability =
       to_stability_axes(derivatives, point.steady, settings.freestream.alpha * radians_per_degree);
   replace_file_with(stem + ".stability_axes.csv",
-                    derivative_csv(rows_of(stability, rows.front().method, Axes::stability),
-                                   settings.reference, Axes::stability));
+                    derivative_csv(rows_of(stability, rows.front().method, Axes::stability, {},
+                                           on_stability_axes(estimated.unconverged)),
+                                   head, Axes::stability));
   replace_file_with(stem + ".st", avl_stability_text(point));
   replace_file_with(stem + ".jsbsim.xml", jsbsim_aerodynamics(point));
 }
@@ -69,6 +82,7 @@ std::vector<TableRow> balance_rows(const Case& settings, const EstimatedDerivati
                  margin.parts};
   point.value.value += settings.reference.moment_center.x;
   for (auto& [source, part] : point.parts) part *= length;
+  margin.converged = point.converged = !estimated.unconverged.contains(Variable::alpha);
   return {margin, point};
 }
 
@@ -123,8 +137,10 @@ Outcome complete(FlowCase& flow, std::span<const MeshDerivatives> coarser) {
   DerivativeSetOf<MeshConvergence> convergence;
   RunStatus status = RunStatus::error;
   Real linear_cpu = not_measured;
+  bool foundation_holds = false;  // of all derivatives: the steady flow and the coarser meshes
   try {
     status = flow.march();
+    foundation_holds = flow.shortfalls().empty();
     const Timer timer;
     if (status != RunStatus::interrupted) {
       flow.progress().begin_phase("linear solves");
@@ -139,12 +155,14 @@ Outcome complete(FlowCase& flow, std::span<const MeshDerivatives> coarser) {
     status = RunStatus::diverged;
     flow.report_divergence(error);
   }
+  if (!foundation_holds)
+    for (const auto& [variable, column] : estimated.derivatives) estimated.unconverged.insert(variable);
   if (!estimated.derivatives.empty() && !coarser.empty())
     convergence = add_mesh_part(estimated, flow.setup().mesh.cells, coarser);
 
   auto rows = rows_of(estimated.derivatives,
                       fmt::format("linear solve, k -> 0, {}", word_of(flow.settings().derivatives.method)),
-                      Axes::body, estimated.parts);
+                      Axes::body, estimated.parts, estimated.unconverged);
   Result result = flow.result(status, rows);
   add(convergence, result);
   result.performance.linear_cpu_s = flow.communicator().sum(linear_cpu);
@@ -152,7 +170,7 @@ Outcome complete(FlowCase& flow, std::span<const MeshDerivatives> coarser) {
     const auto balance = balance_rows(flow.settings(), estimated);
     result.longitudinal = longitudinal_of(balance, estimated.derivatives);
     rows.insert(rows.end(), balance.begin(), balance.end());
-    flow.communicator().on_root([&] { write_tables(flow, estimated.derivatives, rows); });
+    flow.communicator().on_root([&] { write_tables(flow, status, estimated, rows); });
   }
   return {std::move(result), std::move(estimated.derivatives), std::move(rows)};
 }
@@ -183,6 +201,8 @@ std::optional<std::vector<MeshDerivatives>> complete_coarser(FlowCase& finest,
       spdlog::info("{} {}", to_string(status), message);
       return std::nullopt;
     }
+    if (result.status == RunStatus::unconverged)
+      finest.fall_short(fmt::format("on {}: {}", level->setup().mesh.file, result.message));
     out.push_back({level->setup().mesh.cells, std::move(derivatives)});
   }
   return out;
@@ -218,6 +238,7 @@ RunStatus derivatives_verb(const CaseArguments& arguments, const Communicator& c
   spdlog::info("of these, steady state {:.1f} s of processor, linear solves {:.1f} s{}",
                performance.steady_cpu_s, performance.linear_cpu_s,
                meshes > 1 ? fmt::format(", coarser meshes {:.1f} s", coarser_cpu) : "");
+  flow.print_end(result);
   return result.status;
 }
 

@@ -12,13 +12,16 @@ namespace alphadot {
 RunStatus derive_verb(const std::string& history_file, Real center_x, const Communicator& comm) {
   comm.on_root([&] {
     const History history = read_history(history_file);
-    auto [derivatives, method] = extract_derivatives(history);
+    auto [estimated, method] = extract_derivatives(history);
     ReferenceSettings reference = history.info.reference;
     if (std::isfinite(center_x)) {
-      derivatives = moment_transfer(derivatives, (center_x - reference.moment_center.x) / reference.length);
+      estimated.derivatives =
+          moment_transfer(estimated.derivatives, (center_x - reference.moment_center.x) / reference.length);
+      estimated.parts.clear();
       reference.moment_center.x = center_x;
     }
-    fmt::print("{}", derivative_table(rows_of(derivatives, method), reference));
+    const auto rows = rows_of(estimated.derivatives, method, Axes::body, estimated.parts);
+    fmt::print("{}", derivative_table(rows, {reference, history.info.status, uncertainty_scope(rows)}));
   });
   return RunStatus::completed;
 }

@@ -9,6 +9,7 @@
 #include "analysis/indicial.hpp"
 #include "analysis/ramp.hpp"
 #include "core/error.hpp"
+#include "core/fit_needs.hpp"
 #include "io/case_words.hpp"
 #include "motion/motion.hpp"
 
@@ -46,6 +47,7 @@ ForceHistory force_history(const History& history, std::size_t first) {
                              values.end());
   };
   out.time = from("t_star");
+  if (out.time.size() > 1) out.time_step = out.time.back() - out.time[out.time.size() - 2];
   out.angle = from(angle_column(history.info.motion.kind));
   out.loads.resize(out.time.size());
   out.bounds.resize(out.time.size());
@@ -71,12 +73,9 @@ Coefficients initial_loads(const History& history) {
 /// Cycles at the start of a motion that no fit uses.
 constexpr Real least_discarded = 0.1;
 
-/// Share of a ramp's record that its start may take.
-constexpr Real ramp_transient = 0.5;
-
 Extraction harmonic_extraction(const History& history, const HarmonicBasis& basis) {
   const auto& motion = history.info.motion;
-  return {harmonic_derivatives(force_history(history, 0), motion.kind, basis).derivatives,
+  return {harmonic_derivatives(force_history(history, 0), motion.kind, basis).estimated,
           fmt::format("harmonic fit, {}, k = {}", motion_name(motion.kind), motion.reduced_frequency)};
 }
 
@@ -105,6 +104,16 @@ Extraction extract_derivatives(const History& history) {
       break;
   }
   return harmonic_extraction(history, {.reduced_frequency = motion.reduced_frequency});
+}
+
+std::pair<std::size_t, std::size_t> fitted_rows(const History& history) {
+  const auto& motion = history.info.motion;
+  const auto& time = history.column("t_star");
+  Real start = 0;
+  if (is_harmonic(motion.kind)) start = discarded_cycles * 2 * pi / motion.reduced_frequency;
+  if (motion.kind == MotionKind::ramp_alpha) start = ramp_transient * time.back();
+  const auto first = std::ranges::lower_bound(time, (1 - 1e-9) * start) - time.begin();
+  return {static_cast<std::size_t>(first), time.size()};
 }
 
 Extraction derivatives_so_far(const History& history) {

@@ -71,6 +71,9 @@ SteadySettings gentler(SteadySettings settings, std::size_t attempt) {
 
 constexpr std::size_t named_in_message = 3;
 
+/// Begins what was not reached in the message of a checkpoint.
+const std::string not_reached_mark = "\nnot reached: ";
+
 /// "cell 7 at (1, 2, 3), cell 8 at ..."
 std::string named(std::span<const SuspectCell> cells) {
   std::vector<std::string> out;
@@ -159,6 +162,7 @@ CheckpointHead FlowCase::checkpoint_head(std::string phase) const {
   CheckpointHead out;
   out.phase = std::move(phase);
   out.message = message_;
+  for (const auto& shortfall : shortfalls_) out.message += not_reached_mark + shortfall;
   out.history.info = history_info(settings(), setup_.mesh.hash);
   out.numbers["limiter_is_frozen"] = {iteration_.limiter_is_frozen() ? 1.0 : 0.0};
   out.numbers["limiter_threshold"] = {discretization_.space().limiter_threshold};
@@ -167,7 +171,10 @@ CheckpointHead FlowCase::checkpoint_head(std::string phase) const {
 }
 
 void FlowCase::restore_steady(const CheckpointHead& head) {
-  message_ = head.message;
+  auto rest = head.message;
+  for (std::size_t at; (at = rest.rfind(not_reached_mark)) != std::string::npos; rest.resize(at))
+    shortfalls_.insert(shortfalls_.begin(), rest.substr(at + not_reached_mark.size()));
+  message_ = rest;
   steady_report_ = {};
   steady_report_.loads = loads_of(head.numbers.at("steady_loads"));
   steady_report_.total = total_of(steady_report_.loads);
@@ -270,19 +277,34 @@ RunStatus FlowCase::march() {
     throw DivergedError(
         "the steady march found no CFL number that holds (at high incidence "
         "space.flux = \"van_leer\" or \"hllc\" holds where \"roe\" does not)");
-  if (result.status == RunStatus::completed) {
-    if (!message_.empty()) message_ += "; ";
-    message_ += fmt::format("the residual dropped {:.1f} of {} decades in {} iterations", result.orders,
-                            settings().steady.orders, result.iterations);
+  const bool fell_short = result.status == RunStatus::completed || result.status == RunStatus::unconverged;
+  if (fell_short) {
+    auto text = fmt::format("the steady residual dropped {:.1f} of {:g} decades in {} iterations",
+                            result.orders, settings().steady.orders, result.iterations);
     if (result.has_stalled)
-      message_ += fmt::format(" and falls no more; meanwhile CN goes to and fro by {:.1e}, Cm by {:.1e}",
-                              coefficients(result.swing, settings()).CN,
-                              std::abs(coefficients(result.swing, settings()).Cm));
-    message_ += "; worst: " + named(iteration_.worst_cells(named_in_message));
-    spdlog::warn("{}", message_);
+      text += fmt::format(" and falls no more, meanwhile CN goes to and fro by {:.1e}, Cm by {:.1e}",
+                          coefficients(result.swing, settings()).CN,
+                          std::abs(coefficients(result.swing, settings()).Cm));
+    fall_short(text + ", worst: " + named(iteration_.worst_cells(named_in_message)));
   }
   if (steady_state_.iteration > saved) save(steady_head("steady"));
-  return result.status;
+  return fell_short ? RunStatus::unconverged : result.status;
+}
+
+void FlowCase::fall_short(std::string of_what) {
+  spdlog::warn("not reached: {}", of_what);
+  shortfalls_.push_back(std::move(of_what));
+}
+
+RunStatus FlowCase::status_of(RunStatus end) const {
+  const bool is_good = end == RunStatus::converged || end == RunStatus::completed;
+  return is_good && !shortfalls_.empty() ? RunStatus::unconverged : end;
+}
+
+TableHead FlowCase::table_head(RunStatus end, std::span<const TableRow> rows) const {
+  std::string status = to_string(status_of(end));
+  if (!shortfalls_.empty()) status += fmt::format(": {}", fmt::join(shortfalls_, "; "));
+  return {settings().reference, status, uncertainty_scope(rows)};
 }
 
 void FlowCase::report_divergence(const DivergedError& error) {
@@ -341,10 +363,13 @@ PerformanceResult FlowCase::performance() const {
   return out;
 }
 
-Result FlowCase::result(RunStatus status, std::span<const TableRow> derivatives) const {
+Result FlowCase::result(RunStatus end, std::span<const TableRow> derivatives) const {
   Result out;
-  out.status = status;
+  out.status = status_of(end);
+  out.not_reached = shortfalls_;
   out.message = message_;
+  if (out.status == RunStatus::unconverged)
+    out.message += fmt::format("{}{}", message_.empty() ? "" : "; ", fmt::join(shortfalls_, "; "));
   out.title = settings().title;
   out.mesh = setup_.mesh;
   out.reference = settings().reference;
@@ -358,7 +383,9 @@ Result FlowCase::result(RunStatus status, std::span<const TableRow> derivatives)
           named(coefficients(steady_report_.loads[patch], settings()));
   out.excluded = excluded_patches();
   for (const auto& row : derivatives)
-    out.derivatives[row.name] = {row.value.value, row.value.uncertainty, row.method, row.parts};
+    out.derivatives[row.name] = {row.value.value, row.value.uncertainty, row.method, row.converged,
+                                 row.parts};
+  if (!derivatives.empty()) out.uncertainty = uncertainty_scope(derivatives);
   out.performance = performance();
   out.provenance = provenance(comm_.size());
   return out;
@@ -382,17 +409,26 @@ void FlowCase::write(const Result& result) const {
 void FlowCase::print(const Result& result, std::span<const TableRow> derivatives) const {
   if (!spdlog::should_log(spdlog::level::info)) return;
   const auto loads = coefficients(steady_report_.total, settings());
-  if (!derivatives.empty()) fmt::print("{}\n", derivative_table(derivatives, settings().reference));
+  if (!derivatives.empty())
+    fmt::print("{}\n", derivative_table(derivatives, table_head(result.status, derivatives)));
   fmt::print("Steady: CA {:.6f}  CN {:+.6f}  Cm {:+.6f} about x = {:g}\n", loads.CA, loads.CN, loads.Cm,
              settings().reference.moment_center.x);
-  std::fflush(stdout);  // before the log's last word
+  std::fflush(stdout);  // before the log's last words
   const auto& p = result.performance;
   spdlog::info(
-      "{}: {} wall, {:.1f} s of processor, {} iterations, {:.3f} us of core time per cell and iteration, "
-      "{:.0f} bytes per cell, {:.1f} % waiting for halos, {:.1f} % writing {} checkpoint{}\nwritten to {}",
-      to_string(result.status), duration_text(p.wall_s), p.cpu_s, p.iterations, p.core_us_per_cell_iteration,
-      p.bytes_per_cell, 100 * p.halo_fraction, 100 * p.checkpoint_wall_s / p.wall_s, p.checkpoints,
-      p.checkpoints == 1 ? "" : "s", folder_);
+      "{} wall, {:.1f} s of processor, {} iterations, {:.3f} us of core time per cell and iteration, "
+      "{:.0f} bytes per cell, {:.1f} % waiting for halos, {:.1f} % writing {} checkpoint{}",
+      duration_text(p.wall_s), p.cpu_s, p.iterations, p.core_us_per_cell_iteration, p.bytes_per_cell,
+      100 * p.halo_fraction, 100 * p.checkpoint_wall_s / p.wall_s, p.checkpoints,
+      p.checkpoints == 1 ? "" : "s");
+}
+
+void FlowCase::print_end(const Result& result) const {
+  std::fflush(stdout);
+  if (result.status == RunStatus::unconverged)
+    spdlog::warn("not converged: {}; written to {}", result.message, folder_);
+  else
+    spdlog::info("{}; written to {}", to_string(result.status), folder_);
 }
 
 }  // namespace alphadot

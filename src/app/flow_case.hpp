@@ -40,7 +40,8 @@ class FlowCase {
   /// The case's way to let the motion enter the equations; moves this case's mesh. Collective.
   std::unique_ptr<Treatment> treatment(Real time_step);
   /// Marches to the steady state with progress lines and checkpoints, from where a restart begins; nothing is
-  /// left to do when it begins in the motion. Throws DivergedError.
+  /// left to do when it begins in the motion. A march that does not reach its tolerance falls short. Throws
+  /// DivergedError.
   RunStatus march();
 
   Checkpoints& checkpoints() { return checkpoints_; }
@@ -56,20 +57,30 @@ class FlowCase {
   CheckpointHead steady_head(std::string phase) const;
   /// Why the run ended as it did, for the result.
   void set_message(std::string message) { message_ = std::move(message); }
+  /// Something that the case asked for was not reached: the run cannot end as converged or completed any
+  /// more, and all that it writes says so.
+  void fall_short(std::string of_what);
+  const std::vector<std::string>& shortfalls() const { return shortfalls_; }
+  /// The status with which a run that came to this end ends, shortfalls included.
+  RunStatus status_of(RunStatus end) const;
+  /// What stands above the tables of a run that came to this end.
+  TableHead table_head(RunStatus end, std::span<const TableRow> rows) const;
 
   /// Says where the flow went wrong: in the message of the result, in the log and in worst_cells.csv.
   /// Collective.
   void report_divergence(const DivergedError& error);
 
-  /// Everything in result.json, with the derivatives of a table. Collective.
-  Result result(RunStatus status, std::span<const TableRow> derivatives = {}) const;
+  /// Everything in result.json of a run that came to this end, with the derivatives of a table. Collective.
+  Result result(RunStatus end, std::span<const TableRow> derivatives = {}) const;
   /// Writes a result.json without results: by default what stands there when the run is killed. Collective.
   void announce(RunStatus status = RunStatus::interrupted,
                 std::string message = "the run has not ended, or was killed") const;
   /// Writes pictures (but when interrupted), resolved case and result.json. Collective.
   void write(const Result& result) const;
-  /// What the run has found, on standard output (unless quiet), and how it ended, in the log.
+  /// What the run has found, on standard output (unless quiet), and what it cost, in the log.
   void print(const Result& result, std::span<const TableRow> derivatives) const;
+  /// The last line of the log: how the run ended, and what was not reached.
+  void print_end(const Result& result) const;
 
  private:
   std::vector<std::string> excluded_patches() const;
@@ -94,6 +105,7 @@ class FlowCase {
   Real steady_orders_ = 0;
   Real steady_wall_ = not_measured, steady_cpu_ = not_measured;  // of the march on this rank
   std::string message_;
+  std::vector<std::string> shortfalls_;
 };
 
 /// The six coefficients with their names.

@@ -1,10 +1,13 @@
 #include "app/linear_derivatives.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -48,24 +51,36 @@ int time_derivatives(Variable variable) {
   return variable == alphaddot || variable == betaddot ? 2 : 1;
 }
 
+/// What a variable is the rate of.
+std::optional<Variable> rate_of(Variable variable) {
+  using enum Variable;
+  switch (variable) {
+    case alphadot:
+      return alpha;
+    case betadot:
+      return beta;
+    case alphaddot:
+      return alphadot;
+    case betaddot:
+      return betadot;
+    default:
+      return std::nullopt;
+  }
+}
+
 /// The problem of one variable. Those of the rates of the angles need the responses to the angles.
 template <class Solved>
 SensitivityProblem problem_of(ResponseKey key, const FlowCase& flow, const Solved& responses) {
-  using enum Variable;
   const auto [variable, limiter_held] = key;
   SensitivityProblem out{std::string(name(variable)), change_of(variable, flow.settings().freestream)};
-  const auto follows = [&](Variable of) {
-    const auto& response = responses.at({of, limiter_held});
-    out.rate = response.field;
-    out.rate_residual = response.relative_residual;
-  };
-  const bool has_rate = variable == alpha || variable == beta ||
+  const bool has_rate = variable == Variable::alpha || variable == Variable::beta ||
                         (flow.settings().derivatives.second_order && time_derivatives(variable) == 1);
   if (has_rate) out.further_orders = 1;
-  if (variable == alphadot) follows(alpha);
-  if (variable == betadot) follows(beta);
-  if (variable == alphaddot) follows(alphadot);
-  if (variable == betaddot) follows(betadot);
+  if (const auto angle = rate_of(variable)) {
+    const auto& response = responses.at({*angle, limiter_held});
+    out.rate = response.field;
+    out.rate_residual = response.relative_residual;
+  }
   return out;
 }
 
@@ -92,9 +107,20 @@ CoefficientsOf<Estimate> column_of(Variable variable, const Sensitivity& solutio
   return out;
 }
 
-/// Solves for all variables but those that the checkpoint has, with a checkpoint after each group. The
-/// uncertainty is that of the linear solves. Nothing when the run was stopped.
-DerivativeSet solve_all(FlowCase& flow, SensitivitySolver& solver, Responses& responses, bool limiter_held) {
+/// Whether a solve did what it was asked for; says so when it did not.
+bool reached(Variable variable, const Sensitivity& solution, FlowCase& flow) {
+  const Real asked = flow.settings().derivatives.orders, left = solution.relative_residual;
+  if (left <= std::pow(10.0, -asked)) return true;
+  flow.fall_short(fmt::format("the linear residual for {} dropped {:.1f} of {:g} decades in {} iterations",
+                              name(variable), -std::log10(left), asked, solution.iterations));
+  return false;
+}
+
+/// Solves for all variables but those that the checkpoint has, with a checkpoint after each group; adds those
+/// that fell short to `unconverged`. The uncertainty is that of the linear solves. Nothing when the run was
+/// stopped.
+DerivativeSet solve_all(FlowCase& flow, SensitivitySolver& solver, Responses& responses, bool limiter_held,
+                        std::set<Variable>& unconverged) {
   if (limiter_held) {
     spdlog::info("once more with the limiter's factors held");
     solver.hold_limiter();
@@ -116,6 +142,9 @@ DerivativeSet solve_all(FlowCase& flow, SensitivitySolver& solver, Responses& re
       out[variable] = column_of(variable, solution, flow.settings());
       spdlog::info("{:9} {:3} iterations, linear residual {:.1e}", name(variable), solution.iterations,
                    solution.relative_residual);
+      const auto angle = rate_of(variable);
+      if (!reached(variable, solution, flow) || (angle && unconverged.contains(*angle)))
+        unconverged.insert(variable);
     }
   }
   return out;
@@ -182,7 +211,8 @@ EstimatedDerivatives linear_derivatives(FlowCase& flow) {
     return !flow.checkpoints().request(false).stop;
   };
   SensitivitySolver solver(flow.iteration(), flow.conditions(), settings.derivatives, go_on);
-  EstimatedDerivatives out{solve_all(flow, solver, responses, false), {}};
+  EstimatedDerivatives out;
+  out.derivatives = solve_all(flow, solver, responses, false, out.unconverged);
   if (out.derivatives.empty()) return {};
   auto& linear = out.parts.emplace_back(UncertaintyPart{"linear", {}});
   for (const auto& [variable, column] : out.derivatives)
@@ -197,7 +227,7 @@ EstimatedDerivatives linear_derivatives(FlowCase& flow) {
   }
   if (!settings.derivatives.limiter_uncertainty) return out;
 
-  const DerivativeSet held = solve_all(flow, solver, responses, true);
+  const DerivativeSet held = solve_all(flow, solver, responses, true, out.unconverged);
   if (held.empty()) return {};
   DerivativeSetOf<Real> share;
   for (const auto& [variable, column] : out.derivatives)
@@ -205,12 +235,6 @@ EstimatedDerivatives linear_derivatives(FlowCase& flow) {
       share[variable][i] = std::abs(held.at(variable)[i].value - column[i].value);
   out.add("limiter", std::move(share));
   return out;
-}
-
-void EstimatedDerivatives::add(std::string source, DerivativeSetOf<Real> share) {
-  for (auto& [variable, column] : derivatives)
-    for (int i = 0; i < column.size(); ++i) column[i].uncertainty += share.at(variable)[i];
-  parts.push_back({std::move(source), std::move(share)});
 }
 
 }  // namespace alphadot

@@ -60,7 +60,8 @@ int main(int argc, char** argv) {
 
   CLI::App app{
       "Dynamic stability derivatives of missiles and aircraft by field velocity.\n"
-      "Exit codes: 0 converged or completed, 1 error, 2 wrong command line, 3 interrupted, 4 diverged."};
+      "Exit codes: 0 converged or completed, 1 error, 2 wrong command line, 3 interrupted, 4 diverged,\n"
+      "5 not converged: something that was asked for was not reached, and the last line says what."};
   app.set_version_flag("--version", version_line());
   app.require_subcommand(1);
   app.fallthrough();

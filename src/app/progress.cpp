@@ -75,6 +75,7 @@ void Progress::begin(Real share) {
   clock_ = Timer();
   first_share_ = share;
   last_shown_ = -1e9;
+  forecast_ = {};
   table_.reset();
 }
 
@@ -101,13 +102,12 @@ void Progress::show(const SteadyProgress& progress) {
   const auto loads = coefficients(progress.report.total, settings_);
   table_->append(fmt::format("{},{:.6g},{:.6g},{},{},{},{},{},{}\n", progress.iteration, progress.orders,
                              progress.cfl, loads.CA, loads.CY, loads.CN, loads.Cl, loads.Cm, loads.Cn));
-  const Real share = progress.orders / settings_.steady.orders;
-  if (first_share_ == 0) first_share_ = std::min(share, Real{1});  // what a restart had already
-  if (!is_due() && share < 1) return;
-  const Real left = seconds_left(share);
-  spdlog::info("steady {:5}  residual 1e{:+06.2f}  CFL {:.0e}  CN {:+.6f}  CA {:.6f}  Cm {:+.6f}  left {}",
+  forecast_.add(clock_.wall(), progress.orders);
+  if (!is_due() && progress.orders < settings_.steady.orders) return;
+  const Real left = forecast_.seconds_to(settings_.steady.orders);
+  spdlog::info("steady {:5}  residual 1e{:+06.2f}  CFL {:.0e}  CN {:+.6f}  CA {:.6f}  Cm {:+.6f}{}",
                progress.iteration, -progress.orders, progress.cfl, loads.CN, loads.CA, loads.Cm,
-               duration_text(left));
+               std::isfinite(left) ? "  steady in " + duration_text(left) : "");
   write_json("steady",
              {{"iteration", progress.iteration},
               {"orders", progress.orders},
@@ -133,7 +133,7 @@ void Progress::show(const StepReport& step, const History& so_far) {
   const Real error = std::abs(coefficients(step.error, settings_).Cm);
   const Real left = seconds_left(static_cast<Real>(step.step) / steps_);
   const Extraction so = derivatives_so_far(so_far);
-  const auto rows = rows_of(so.derivatives, so.method);
+  const auto rows = rows_of(so.estimated.derivatives, so.method);
   spdlog::info(
       "step {:4}/{}  alpha {:+.3f}  inner {:3} (1e{:+.1f})  CN {:+.6f}  Cm {:+.6f} +- {:.1e}{}  left {}",
       step.step, steps_, step.attitude.alpha / radians_per_degree, step.inner_iterations, -step.inner_orders,

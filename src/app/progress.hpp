@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "analysis/residual_forecast.hpp"
 #include "analysis/table.hpp"
 #include "core/timer.hpp"
 #include "io/history.hpp"
@@ -14,7 +15,8 @@
 
 namespace alphadot {
 
-/// A line in the terminal now and then, with residual, coefficients, derivatives so far and time left. In the
+/// A line in the terminal now and then, with residual, coefficients, derivatives so far and the time that is
+/// left, of a motion, or to the steady state, where it is known. In the
 /// run's folder, for whoever looks on from outside (the verb watch, scripts/sweep.py): the same as
 /// progress.json, a row an iteration in steady.csv, a row a step in history.csv. None of these is needed to
 /// go on, so that one that cannot be written stops nothing. Silent on ranks other than the root.
@@ -40,7 +42,7 @@ class Progress {
 
  private:
   bool is_due();
-  /// Seconds for the rest, when `share` of the phase is done.
+  /// Seconds for the rest of a motion, when `share` of it is done.
   Real seconds_left(Real share) const;
   void begin(Real share);
   void write_json(const std::string& phase, const NamedValues& values, Real seconds_left,
@@ -52,7 +54,8 @@ class Progress {
   int steps_ = 0;
   std::optional<LiveTable> table_;
   Timer clock_;           ///< of the phase
-  Real first_share_ = 0;  ///< of the phase that was done when it began here
+  Real first_share_ = 0;  ///< of the motion that was done when it began here
+  ResidualForecast forecast_;
   Real last_shown_ = -1e9;
 };
 

@@ -1,6 +1,8 @@
 // The verb "run": steady state, motion, derivatives, files.
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "analysis/table.hpp"
 #include "app/extraction.hpp"
 #include "app/flow_case.hpp"
@@ -37,7 +39,8 @@ History::Row history_row(const StepReport& step, const FlowCase& flow) {
                    {"q", rate * step.attitude.rotation.y},
                    {"r", -rate * step.attitude.rotation.z},
                    {"inner_iterations", step.inner_iterations},
-                   {"inner_orders", step.inner_orders}};
+                   {"inner_orders", step.inner_orders},
+                   {"inner_left", step.inner_left}};
   append(row, "total", coefficients(step.report.total, settings));
   append(row, "error", coefficients(step.error, settings));
   const auto& setup = flow.setup();
@@ -107,10 +110,27 @@ Extraction extract(FlowCase& flow, const History& history) {
   try {
     return extract_derivatives(history);
   } catch (const InputError& error) {
-    flow.set_message(fmt::format("no derivatives: {}", error.what()));
-    spdlog::warn("no derivatives: {}", error.what());
+    flow.fall_short(fmt::format("no derivatives: {}", error.what()));
     return {};
   }
+}
+
+/// Says when inner iterations of steps that the derivatives rest on did not reach their tolerance.
+void judge_steps(FlowCase& flow, const History& history) {
+  const auto [first, last] = fitted_rows(history);
+  const auto& left = history.column("inner_left");
+  std::size_t loose = 0;
+  Real worst = 0;
+  for (std::size_t row = first; row < last; ++row) {
+    if (!(left[row] > 1)) continue;
+    ++loose;
+    worst = std::max(worst, left[row]);
+  }
+  if (loose > 0)
+    flow.fall_short(fmt::format(
+        "the inner iterations of {} of {} time steps left up to {:.2g} times what unsteady.inner_tolerance "
+        "allows",
+        loose, last - first, worst));
 }
 
 }  // namespace
@@ -129,20 +149,27 @@ RunStatus run_verb(const CaseArguments& arguments, const Communicator& comm) {
       const Timer timer;
       status = follow_motion(flow, history);
       motion_cpu = timer.cpu();
-      if (status == RunStatus::completed) extraction = extract(flow, history);
+      if (status == RunStatus::completed) {
+        judge_steps(flow, history);
+        extraction = extract(flow, history);
+      }
     }
   } catch (const DivergedError& error) {
     status = RunStatus::diverged;
     flow.report_divergence(error);
   }
 
+  const auto& estimated = extraction.estimated;
+  auto rows = rows_of(estimated.derivatives, extraction.method, Axes::body, estimated.parts);
+  for (auto& row : rows) row.converged = flow.shortfalls().empty();
+  history.info.status = flow.table_head(status, rows).status;
   if (history.steps() > 0) comm.on_root([&] { write_history(flow.folder(), history); });
-  const auto rows = rows_of(extraction.derivatives, extraction.method);
   Result result = flow.result(status, rows);
   result.performance.motion_cpu_s = comm.sum(motion_cpu);
   flow.write(result);
   flow.print(result, rows);
-  return status;
+  flow.print_end(result);
+  return result.status;
 }
 
 }  // namespace alphadot

@@ -137,7 +137,7 @@ RunView view_run(const std::string& folder) {
     out.derivatives = derivatives_text(progress.value("derivatives", Json::object()));
     out.silence = seconds_since_written(progress_file);
     if (const Real left = number_of(progress, "seconds_left"); std::isfinite(left))
-      out.left = duration_text(left);
+      out.left = duration_text(left) + (text_of(progress, "phase") == "steady" ? " to the steady state" : "");
   } else if (result.is_object()) {
     out.state = text_of(result, "status");
     out.title = text_of(result, "title");

@@ -5,10 +5,11 @@
 
 namespace alphadot {
 
-/// converged: a steady state to its tolerance. completed: a motion to its end, or a steady march that used up
-/// its iterations. interrupted: stopped by a signal or on request. diverged: the flow became unphysical.
-/// error: bad input or environment.
-enum class RunStatus { converged, completed, interrupted, diverged, error };
+/// converged: a steady state, and the linear solves about it, to their tolerances. completed: a motion to its
+/// end, every tolerance met on the way. unconverged: the same ends, but something that was asked for was not
+/// reached. interrupted: stopped by a signal or on request. diverged: the flow became unphysical. error: bad
+/// input or environment.
+enum class RunStatus { converged, completed, unconverged, interrupted, diverged, error };
 
 /// "converged", ...
 inline std::string to_string(RunStatus status) {
@@ -17,6 +18,8 @@ inline std::string to_string(RunStatus status) {
       return "converged";
     case RunStatus::completed:
       return "completed";
+    case RunStatus::unconverged:
+      return "not_converged";
     case RunStatus::interrupted:
       return "interrupted";
     case RunStatus::diverged:
@@ -27,13 +30,15 @@ inline std::string to_string(RunStatus status) {
   return "error";
 }
 
-/// Exit code of the program: 0 converged or completed, 1 error, 3 interrupted, 4 diverged. (2 is a wrong
-/// command line.)
+/// Exit code of the program: 0 converged or completed, 1 error, 3 interrupted, 4 diverged, 5 not converged.
+/// (2 is a wrong command line.)
 inline int exit_code(RunStatus status) {
   switch (status) {
     case RunStatus::converged:
     case RunStatus::completed:
       return 0;
+    case RunStatus::unconverged:
+      return 5;
     case RunStatus::interrupted:
       return 3;
     case RunStatus::diverged:

@@ -63,7 +63,7 @@ std::vector<Vec3> DeformingGrid::points_at(int step) {
 }
 
 void DeformingGrid::find_speeds(int step, const std::array<std::vector<Vec3>, 3>& points) {
-  const TimeWeights weight = time_weights(step, time_step_);
+  const TimeWeights weight = time_weights(step, weights_step_);
   const auto corners = [&](int level, const std::array<Index, 3>& face) {
     const auto& at = points[static_cast<std::size_t>(level)];
     return std::array<Vec3, 3>{at[face[0]], at[face[1]], at[face[2]]};

@@ -29,6 +29,7 @@ DualTime::DualTime(ImplicitIteration& iteration, const Motion& motion, const Vec
       treatment_(std::move(treatment)),
       axis_point_(axis_point),
       time_step_(time_step),
+      weights_step_(fitted_step(time_step, motion.is_harmonic() ? motion.omega() : 0)),
       initial_(initial),
       old_(static_cast<std::size_t>(iteration.discretization().domain().owned_cells)) {
   if (!treatment_)
@@ -49,7 +50,7 @@ void DualTime::predict(const Vec3& axes) {
 void DualTime::add_time_derivative(const Vec3& axes) {
   const Subdomain& domain = iteration_.discretization().domain();
   const Real gamma = iteration_.discretization().gamma();
-  const TimeWeights weight = time_weights(state_.step, time_step_);
+  const TimeWeights weight = time_weights(state_.step, weights_step_);
   const auto volume = treatment_->volumes(0), old_volume = treatment_->volumes(1),
              older_volume = treatment_->volumes(2);
   auto values = iteration_.residual_values();
@@ -110,7 +111,7 @@ StepReport DualTime::advance(const InnerTolerance& tolerance) {
   out.attitude = motion_.at(out.time);
   const auto conditions = treatment_->move_to(state_.step);
   const Vec3 axes = treatment_->axes(out.attitude);
-  const Real inverse_step = time_weights(state_.step, time_step_).now;
+  const Real inverse_step = time_weights(state_.step, weights_step_).now;
   const int axis = motion_.moment_axis();
   predict(axes);
   iteration_.linearise(conditions, {.cfl = pseudo_cfl, .inverse_step = inverse_step});
@@ -135,11 +136,14 @@ StepReport DualTime::advance(const InnerTolerance& tolerance) {
     const Load delta = out.report.total - previous;
     const Real previous_change = change;
     change = std::abs(delta.moment[axis]);
-    const Real rate = std::clamp(change / std::max(previous_change, 1e-300), slowest_rate / 2, slowest_rate);
+    const Real shrinking = inner < 2 ? slowest_rate : change / std::max(previous_change, 1e-300);
+    const Real rate = std::clamp(shrinking, slowest_rate / 2, slowest_rate);
     out.error = rate / (1 - rate) * delta;
     previous = out.report.total;
     const Real allowed = tolerance.share * moment_scale(out, tolerance.amplitude);
-    if (inner >= 3 && std::abs(out.error.moment[axis]) <= allowed) break;
+    const Real left = std::abs(out.error.moment[axis]);
+    out.inner_left = left / std::max(allowed, 1e-300);
+    if (inner >= 3 && left <= allowed) break;
     if (inner >= tolerance.max_iterations || inner - lowest_at >= stall) break;
     iteration_.advance();
   }

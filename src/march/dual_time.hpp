@@ -20,6 +20,7 @@ struct StepReport {
   int inner_iterations = 0;
   Real inner_orders = 0;  ///< decades that the unsteady density residual dropped within the step
   Load error;             ///< estimate of what is left in force and moment by stopping here
+  Real inner_left = 0;    ///< that of the moment over what the tolerance allows; up to 1 it was reached
   FlowReport report;      ///< loads on body axes
 };
 
@@ -58,9 +59,10 @@ class DualTime {
   /// move, the gas on it has not (see wall_pressure).
   StepReport just_after_start() const;
 
-  /// One step of BDF2 (backward Euler for the first). It ends when the moment is within the tolerance, the
-  /// inner iterations are used up, or the residual has come to a stall, as where a limiter never rests; the
-  /// report holds the error that is left. Throws DivergedError when a state turns unphysical.
+  /// One step of BDF2 (backward Euler for the first), fitted to the frequency of a harmonic motion. It ends
+  /// when the moment is within the tolerance, the inner iterations are used up, or the residual has come to a
+  /// stall, as where a limiter never rests; the report holds the error that is left. Throws DivergedError
+  /// when a state turns unphysical.
   StepReport advance(const InnerTolerance& tolerance);
 
   int step() const { return state_.step; }
@@ -90,6 +92,7 @@ class DualTime {
   std::unique_ptr<Treatment> treatment_;
   Vec3 axis_point_;
   Real time_step_;
+  Real weights_step_;  // fitted to the frequency
   Load initial_;
   DualTimeState state_;
   std::vector<Conserved<Real>> old_, older_;  // [owned_cells] U^n, U^(n-1), momenta along axes at rest

@@ -9,6 +9,7 @@ MovingGrid::MovingGrid(const Motion& motion, const Vec3& axis_point, Real time_s
     : motion_(motion),
       axis_point_(axis_point),
       time_step_(time_step),
+      weights_step_(fitted_step(time_step, motion.is_harmonic() ? motion.omega() : 0)),
       domain_(domain),
       discretization_(discretization),
       rest_(domain.points),
@@ -18,7 +19,7 @@ BodyPlace MovingGrid::place(int step) {
   if (step <= 0) return {axis_point_, {}, {}};
   while (static_cast<int>(travel_.size()) <= step) {
     const auto level = static_cast<int>(travel_.size());
-    const TimeWeights weight = time_weights(level, time_step_);
+    const TimeWeights weight = time_weights(level, weights_step_);
     const Vec3 older = level > 1 ? *(travel_.end() - 2) : Vec3{};
     travel_.push_back(
         1 / weight.now *

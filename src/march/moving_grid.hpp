@@ -35,6 +35,7 @@ class MovingGrid : public Treatment {
   const Motion& motion_;
   Vec3 axis_point_;
   Real time_step_;
+  Real weights_step_;  // as the march's
   Subdomain& domain_;
   Discretization& discretization_;
   std::vector<Vec3> rest_;       // [points] before the motion

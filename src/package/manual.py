@@ -68,11 +68,12 @@ write a checkpoint and end
 end as safely as the second that mpirun leaves allows
 .SH EXIT STATUS
 .nf
-0  converged, or completed
+0  converged, or completed: everything that was asked for was reached
 1  error in the input or the environment; the message has file, line and remedy
 2  wrong command line
 3  interrupted
 4  diverged
+5  not converged: something that was asked for was not reached; the last line says what
 .fi
 .SH EXAMPLES
 .nf

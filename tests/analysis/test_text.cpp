@@ -40,7 +40,7 @@ bool contains(const std::string& text, const std::string& words) {
 
 TEST(Table, SaysWhatItsNumbersReferTo) {
   const auto point = example();
-  const auto table = derivative_table(rows_of(point.derivatives, "linear solve"), point.reference);
+  const auto table = derivative_table(rows_of(point.derivatives, "linear solve"), {point.reference});
   EXPECT_TRUE(contains(table, "length 2, area 3, moment centre and axis of rotation (5.5, 0, 0)"));
   EXPECT_TRUE(contains(table, "rates times length / 2V"));
   EXPECT_TRUE(contains(table, "body: CA aft, CY starboard, CN up"));
@@ -60,18 +60,49 @@ TEST(Table, RowsHaveTheNamesOfTheirAxes) {
 // Reading the file back gives each number to the last bit.
 TEST(Table, CsvKeepsFullPrecision) {
   const std::vector<TableRow> rows{{"Cm_alphadot", {-23.0 / 7, 1.0 / 3}, "plunge, k = 0.01"}};
-  std::istringstream lines(derivative_csv(rows, example().reference));
+  std::istringstream lines(derivative_csv(rows, {example().reference}));
   std::string line;
   int comments = 0;
   while (std::getline(lines, line) && line[0] == '#') ++comments;
   EXPECT_EQ(comments, 3);
-  EXPECT_EQ(line, "name,value,uncertainty,method");
+  EXPECT_EQ(line, "name,value,uncertainty,method,converged");
   std::getline(lines, line);
   std::smatch words;
-  ASSERT_TRUE(std::regex_match(line, words, std::regex("Cm_alphadot,([^,]+),([^,]+),\"plunge, k = 0.01\"")))
+  ASSERT_TRUE(
+      std::regex_match(line, words, std::regex("Cm_alphadot,([^,]+),([^,]+),\"plunge, k = 0.01\",yes")))
       << line;
   EXPECT_EQ(std::stod(words[1]), -23.0 / 7);
   EXPECT_EQ(std::stod(words[2]), 1.0 / 3);
+}
+
+// What a run did not reach, and that no mesh was assessed, stand beside the numbers.
+TEST(Table, SaysHowFarItsNumbersAreToBeTrusted) {
+  const auto point = example();
+  auto rows = rows_of(point.derivatives, "linear solve", Axes::body, {}, {Variable::alphadot});
+  const TableHead head{point.reference, "not_converged: 2 of 3 decades", uncertainty_scope(rows)};
+  EXPECT_EQ(head.uncertainty, "solver only; mesh not assessed");
+  const auto table = derivative_table(rows, head), csv = derivative_csv(rows, head);
+  EXPECT_TRUE(contains(table, "\nStatus: not_converged: 2 of 3 decades\n")) << table;
+  EXPECT_TRUE(contains(table, "\nUncertainty: solver only; mesh not assessed\n"));
+  EXPECT_TRUE(std::regex_search(table, std::regex("\nname +value +solver only +method\n")));
+  EXPECT_TRUE(std::regex_search(table, std::regex("\nCm_alphadot .*linear solve; not converged\n")));
+  EXPECT_TRUE(std::regex_search(table, std::regex("\nCm_alpha .*linear solve\n")));
+  EXPECT_TRUE(contains(csv, "# Status: not_converged: 2 of 3 decades\n"));
+  EXPECT_TRUE(std::regex_search(csv, std::regex("\nCm_alphadot,.*,no\n")));
+  EXPECT_TRUE(std::regex_search(csv, std::regex("\nCm_alpha,.*,yes\n")));
+  for (auto& row : rows) row.parts = {{"linear", 0.01}, {"mesh", 0.02}};
+  EXPECT_EQ(uncertainty_scope(rows), "solver and mesh");
+  rows.back().parts.pop_back();
+  EXPECT_EQ(uncertainty_scope(rows), "solver only; mesh not assessed");
+}
+
+TEST(FlightPoint, ExchangeFormatsSayTheStatus) {
+  auto point = example();
+  EXPECT_FALSE(contains(avl_stability_text(point), "Status"));
+  point.status = "not_converged: on a--b.msh: 2 of 3 decades";
+  EXPECT_TRUE(contains(avl_stability_text(point), " Status: not_converged: on a--b.msh: 2 of 3 decades\n"));
+  const auto xml = jsbsim_aerodynamics(point);
+  EXPECT_TRUE(contains(xml, "Status: not_converged: on a- -b.msh: 2 of 3 decades.")) << xml;
 }
 
 // The numbers in the program are those of the case's reference file.

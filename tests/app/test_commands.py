@@ -62,7 +62,13 @@ class Commands(unittest.TestCase):
         self.assertLessEqual({"length", "area", "moment_center", "rate", "axes"}, result["reference"].keys())
         self.assertLessEqual({"CA", "CY", "CN", "Cl", "Cm", "Cn"}, result["forces"].keys())
         for name in ("CN_alpha", "Cm_alpha", "CN_alphadot", "Cm_alphadot"):
-            self.assertEqual(result["derivatives"][name].keys(), {"value", "uncertainty", "method"})
+            entry = result["derivatives"][name]
+            self.assertEqual(entry.keys(), {"value", "uncertainty", "method", "converged", "parts"})
+            self.assertIs(entry["converged"], True)
+            self.assertEqual(entry["parts"].keys(), {"fit", "inner", "time_step", "amplitude"})
+            self.assertAlmostEqual(sum(entry["parts"].values()), entry["uncertainty"], delta=1e-12)
+        self.assertEqual(result["uncertainty"], "solver only; mesh not assessed")
+        self.assertEqual(result["not_reached"], [])
         cost = result["performance"]
         for name in ("wall_s", "cpu_s", "iterations", "core_us_per_cell_iteration", "bytes_per_cell", "checkpoint_wall_s"):
             self.assertGreater(cost[name], 0)
@@ -134,7 +140,9 @@ class Commands(unittest.TestCase):
 
     def test_history(self) -> None:
         with open(self.folder / "plunge" / "history.csv") as file:
-            rows = list(csv.DictReader(file))
+            status, *lines = file
+        self.assertEqual(status, "# Status: completed\n")
+        rows = list(csv.DictReader(lines))
         self.assertEqual(len(rows), STEPS)
         self.assertEqual(float(rows[-1]["step"]), STEPS)
         for column in ("t_star", "alpha", "total/CN", "total/Cm", "error/Cm", "wall/Cm"):

@@ -16,17 +16,23 @@ CASES = Path(__file__).resolve().parents[2] / "cases"
 MESHES = Path(os.environ["MESHES"])
 
 
-def run(folder: Path, verb: str, case: str, mesh: str, settings: dict[str, object], start: Path | None = None) -> dict:
+def run(
+    folder: Path, verb: str, case: str, mesh: str, settings: dict[str, object], start: Path | None = None, code: int = 0
+) -> dict:
     """The result of `alphadot verb cases/<case>` on a mesh of MESHES, in `folder`; `settings` replace keys of the case.
 
-    Goes on from the newest checkpoint in the folder `start`, if given. CTest's own limit ends a run that hangs.
+    Goes on from the newest checkpoint in the folder `start`, if given. `code` is the exit code that it must end with. CTest's own
+    limit ends a run that hangs.
     """
     overrides = []
     for key, value in {"mesh.file": MESHES / mesh, **settings}.items():
         overrides += ["--set", f"{key}={value}"]
     if start:
         overrides += ["--restart", max(start.glob("checkpoint_*.vtkhdf"))]
-    subprocess.run([os.environ["ALPHADOT"], verb, CASES / case, "--out", folder, "--quiet", *overrides], check=True)
+    command = [os.environ["ALPHADOT"], verb, CASES / case, "--out", folder, "--quiet", *overrides]
+    done = subprocess.run(command)
+    if done.returncode != code:
+        raise subprocess.CalledProcessError(done.returncode, command)
     return json.loads((folder / "result.json").read_text())
 
 

@@ -10,7 +10,9 @@ from pathlib import Path
 
 from runs import CaseInFolder, STEPS, checkpoints, derivatives, differences, make_case, result, run, settings
 
-INDICIAL = settings(motion_kind="step_alpha", unsteady_duration=2, unsteady_steps=8)
+SHORT = dict(unsteady_duration=2, unsteady_steps=11)  # the least that derivatives can be taken from
+INDICIAL = settings(motion_kind="step_alpha", **SHORT)
+ROTATION = dict(motion_kind="step_q", motion_amplitude=0.01, **SHORT)
 
 
 class Restart(CaseInFolder):
@@ -35,11 +37,10 @@ class Restart(CaseInFolder):
     def test_stopped_at_every_step(self) -> None:
         for ranks, arguments in (
             (1, []),
-            (2, settings(unsteady_cycles=0.25)),  # shorter than a fit takes, to save time
-            (1, settings(unsteady_cycles=0.25, space_freeze_orders=2)),
-            (1, settings(unsteady_cycles=0.25, steady_scheme="lu_sgs")),
-            (1, settings(unsteady_cycles=0.25, motion_kind="pitch", motion_treatment="rigid_grid")),
-            (1, settings(unsteady_cycles=0.25, motion_kind="pitch", motion_treatment="deforming_grid")),
+            (1, [*INDICIAL, *settings(space_freeze_orders=2)]),
+            (1, [*INDICIAL, *settings(steady_scheme="lu_sgs")]),
+            (1, settings(**ROTATION, motion_treatment="rigid_grid")),
+            (1, settings(**ROTATION, motion_treatment="deforming_grid")),
             (1, INDICIAL),
             (2, INDICIAL),
         ):
@@ -53,13 +54,14 @@ class Restart(CaseInFolder):
 
     def test_other_numbers_of_ranks(self) -> None:
         tight = settings(unsteady_inner_tolerance=1e-8, unsteady_max_inner=400, steady_orders=11)
-        self.run_ok(self.full, *tight)
+        longer = settings(unsteady_cycles=2)
+        self.run_ok(self.full, *tight, *longer)
         expected = derivatives(self.full)
         for first, then in ((1, 2), (2, 3), (4, 1)):
             with self.subTest(first=first, then=then):
                 shutil.rmtree(self.part, ignore_errors=True)
-                self.run_ok(self.part, *tight, *settings(unsteady_cycles=0.75), ranks=first)  # too short for a fit
-                self.run_ok(self.part, *tight, "--restart", ranks=then)
+                self.run_ok(self.part, *tight, ranks=first)
+                self.run_ok(self.part, *tight, *longer, "--restart", ranks=then)
                 for name, value in derivatives(self.part).items():
                     self.assertAlmostEqual(value, expected[name], delta=1e-6 * abs(expected[name]), msg=name)
 

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Stands in for `mpirun -n N alphadot VERB CASE --set KEY=VALUE ... --out DIR [--restart]`.
 
-Does as the title of its case says: "good" writes a result; "bad" fails with a message; "slow" shows progress and waits until it
+Does as the title of its case says: "good" writes a result; "short" one that is not converged; "bad" fails with a message; "slow" shows progress and waits until it
 is told to stop, writes a checkpoint, and is done when it is restarted. Notes every call in calls.txt of its folder.
 """
 
@@ -37,7 +37,7 @@ def end(status: str, code: int) -> None:
     }
     result = {
         "status": status,
-        "message": "",
+        "message": "the linear residual for alpha dropped 1.3 of 3 decades" if status == "not_converged" else "",
         "title": title,
         "ranks": int(sys.argv[sys.argv.index("-n") + 1]),
         "mesh": {"file": settings.get("mesh.file", "x.msh"), "cells": 1000, "points": 300, "hash": "0123456789abcdef"},
@@ -46,6 +46,7 @@ def end(status: str, code: int) -> None:
         },
         "freestream": {"mach": mach, "alpha": alpha, "beta": 0.0, "gamma": 1.4},
         "forces": {"CA": 0.1, "CN": 0.2, "Cm": -0.4, "components": {"body": {}}, "excluded": ["base"]},
+        "uncertainty": "solver only; mesh not assessed",
         "derivatives": {name: {"value": value, "uncertainty": 0.1, "method": method} for name, value in names.items()},
         "performance": {
             "wall_s": 10.0, "cpu_s": 19.0, "iterations": 60, "halo_fraction": None,
@@ -73,4 +74,7 @@ if title == "slow" and not restart:
     time.sleep(30)
     sys.exit("nobody stopped the stub")
 (folder / "steady.csv").write_text("iteration,orders,cfl,CA,CN,Cm\n1,0,20,0.3,0.1,-0.2\n60,10.1,1e6,0.1,0.2,-0.4\n")
+if title == "short":
+    (folder / "checkpoint_000001.vtkhdf").touch()
+    end("not_converged", 5)
 end("converged" if verb == "derivatives" else "completed", 0)

@@ -54,6 +54,19 @@ class Report(Workspace):
         self.assertEqual([float(row["Mach"]) for row in rows], [1.58, 1.75, 1.89, 2.10, 2.50])
         self.assertAlmostEqual(float(rows[0]["Cm_alpha"]), -60 / 1.58)
 
+    def test_not_converged_stands_first(self) -> None:
+        self.write('[[runs]]\nmach = 2\n\n[[runs]]\nlabel = "short"\ncase = "short.toml"\nmach = 3\n')
+        self.sweep("run", code=5)
+        text = (self.folder / "runs" / "report.html").read_text()
+        top = text[: text.index("<h2")]
+        self.assertIn("short_m3_a1.5: the linear residual for alpha dropped 1.3 of 3 decades", top)
+        self.assertIn("solver only; mesh not assessed", text)
+        with open(self.folder / "runs" / "report" / "derivatives.csv") as file:
+            caption, *lines = file
+        self.assertIn("±: solver only; mesh not assessed", caption)
+        names = [row["run"] for row in csv.DictReader(lines)]
+        self.assertEqual(names, ["short_m3_a1.5 (not converged)", "derivatives_m2_a1.5"])
+
     def refers_to_nothing_outside(self, text: str) -> None:
         references = References()
         references.feed(text)

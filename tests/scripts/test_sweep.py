@@ -6,11 +6,12 @@ from __future__ import annotations
 import os
 import re
 import signal
+import time
 import unittest
 
 from workspace import Workspace
 
-GOOD, BAD, SLOW = "derivatives_m2_a1.5", "bad_m3_a1.5", "plunge_m2_a1.5"
+GOOD, BAD, SLOW, SHORT = "derivatives_m2_a1.5", "bad_m3_a1.5", "plunge_m2_a1.5", "short_m3_a1.5"
 MIXED = '[[runs]]\nlabel = "bad"\ncase = "bad.toml"\nmach = 3\n\n[[runs]]\nmach = 2\n'
 MOTION = '[[runs]]\nmethod = "plunge"\ncase = "slow.toml"\nmach = 2\n'
 
@@ -48,6 +49,34 @@ class Sweeps(Workspace):
         self.sweep("run", "--no-report", code=1)
         self.assertEqual(len(self.calls(BAD)), 2)
         self.assertEqual(len(self.calls(GOOD)), 1)
+
+    def test_not_converged_is_an_end_of_its_own(self) -> None:
+        """The run has its numbers and is not repeated by itself; retry begins it anew, not from the checkpoint of its end."""
+        self.write('[[runs]]\nlabel = "short"\ncase = "short.toml"\nmach = 3\n\n[[runs]]\nmach = 2\n')
+        for _ in range(2):
+            self.sweep("run", "--no-report", code=5)
+        status = self.sweep("status")
+        self.assertRegex(status, rf"{SHORT} +not converged +10 s +the linear residual for alpha dropped 1.3 of 3 decades")
+        self.assertIn("1 done, 1 not converged", status)
+        self.assertEqual(self.calls(SHORT), ["start"])
+        self.assertIn(SHORT, self.sweep("retry"))
+        self.sweep("run", "--no-report", code=5)
+        self.assertEqual(self.calls(SHORT), ["start", "start"])
+        self.assertEqual(self.calls(GOOD), ["start"])
+
+    def test_time_left_is_not_told_while_it_cannot_be_known(self) -> None:
+        """The run at work has taken longer than the one that is done."""
+        slow = '[[runs]]\nmethod = "plunge"\ncase = "good.toml"\nmach = 1.5\n'
+        self.write(slow)
+        self.sweep("run", "--no-report")
+        self.write(slow + MOTION)
+        process = self.start_slow()
+        self.assertRegex(self.sweep("status"), r"1 running, 1 done; about \d+ s left")
+        record = self.folder / "runs" / SLOW / "run.json"
+        os.utime(record, (time.time() - 11, time.time() - 11))  # the other one took 10 s
+        self.assertNotIn("about", self.sweep("status"))
+        process.send_signal(signal.SIGTERM)
+        process.communicate(timeout=20)
 
     def test_changed_settings_are_run_afresh(self) -> None:
         self.write("[[runs]]\nmach = 2\n")

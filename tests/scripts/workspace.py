@@ -26,7 +26,7 @@ class Workspace(unittest.TestCase):
         self.addCleanup(temporary.cleanup)
         self.folder = Path(temporary.name)
         self.file = self.folder / "try.toml"
-        for title in ("good", "bad", "slow"):
+        for title in ("good", "short", "bad", "slow"):
             (self.folder / f"{title}.toml").write_text(f'title = "{title}"\n')
 
     def write(self, blocks: str, head: str = HEAD) -> None:
