@@ -199,10 +199,14 @@ TEST(HarmonicFit, RefusesWhatItCannotFit) {
   const HarmonicBasis basis{.reduced_frequency = k};
 
   const auto short_times = times(1.3 * period, period / 48);
-  expect_refused(basis, short_times, sampled(short_times, sine), "1.30 cycles");
+  expect_refused(basis, short_times, sampled(short_times, sine), "set unsteady.cycles = 1.5 or more");
   expect_refused(basis, {}, {}, "0.00 cycles");
   const auto coarse = times(1.5 * period, period / 6);
-  expect_refused(basis, coarse, sampled(coarse, sine), "too long for harmonic 3");
+  expect_refused(basis, coarse, sampled(coarse, sine), "too long for multiple 3 of the frequency");
+  const auto border = times(1.5 * period, period / 12);
+  expect_refused(basis, border, sampled(border, sine), "set unsteady.steps_per_cycle = 13 or more");
+  const auto enough = times(20 * period / 13, period / 13);
+  EXPECT_NO_THROW(fit_harmonics(basis, enough, sampled(enough, sine)));
   expect_refused({.reduced_frequency = 0}, t, y, "not positive");
   expect_refused({.reduced_frequency = k, .harmonics = 0}, t, y, "fewer than one");
   expect_refused(basis, t, std::vector<Real>(t.size() - 1), "differ in length");

@@ -119,7 +119,7 @@ TEST(CaseFile, EveryKeyWithEveryWordReadsBackTheSame) {
     const std::string word = word_of(value);
     const Case c =
         parse_case(minimal, "a.toml",
-                   {key + "=" + word, "unsteady.duration=1", "unsteady.steps=2", "motion.table_file=t"});
+                   {key + "=" + word, "unsteady.duration=1", "unsteady.steps=20", "motion.table_file=t"});
     EXPECT_NE(resolved_case(c).find("\"" + word + "\""), std::string::npos) << key << " " << word;
     expect_same(parse_case(resolved_case(c), "b.toml"), c);
   };
@@ -191,8 +191,12 @@ INSTANTIATE_TEST_SUITE_P(
         BadCase{"mach = 2\n[space]\nflux = \"roe\a\"", 7, "a control character"},
         BadCase{"mach = 2\n[motion]\nkind = \"table\"\n[unsteady]\nduration = 1\nsteps = 2", 7,
                 "needs motion.table_file"},
-        BadCase{"mach = 2\n[motion]\nkind = \"step_alpha\"\n[unsteady]\nsteps = 2", 7,
+        BadCase{"mach = 2\n[motion]\nkind = \"step_alpha\"\n[unsteady]\nsteps = 20", 7,
                 "needs unsteady.duration > 0"},
+        BadCase{"mach = 2\n[motion]\nkind = \"pitch\"\n[unsteady]\ncycles = 1.25", 9,
+                "set unsteady.cycles = 1.5"},
+        BadCase{"mach = 2\n[motion]\nkind = \"plunge\"\n[unsteady]\nsteps_per_cycle = 12", 9,
+                "set unsteady.steps_per_cycle = 13 or more"},
         BadCase{"mach = 2\nbeta = 1\n[reference]\nmodel = \"half\"", 6, "a half model has no sideslip"},
         BadCase{"mach = 2\n[steady]\ncfl_start = 10\ncfl_max = 5", 8, "cfl_max is below"}));
 
