@@ -1,4 +1,4 @@
-// The sections of Gmsh's format 2.2: every element tells its physical group itself.
+// The sections of Gmsh's formats 1 to 2.2: every element tells its physical group itself.
 #include <algorithm>
 
 #include "io/gmsh_reader_state.hpp"
@@ -6,71 +6,81 @@
 namespace alphadot::gmsh {
 namespace {
 
-/// What stands before the nodes of an element: its groups, then tags that are of no use here.
+/// What stands before the nodes of an element: its group and entity, then tags that are of no use here.
 struct Tags {
-  int physical = 0;
-  int surface = 0;
+  int group = 0;
+  int entity = 0;
+  bool operator==(const Tags&) const = default;
 };
 
 Tags read_tags(Scanner& in, GlobalIndex count) {
   Tags tags;
   for (GlobalIndex i = 0; i < count; ++i) {
     const int tag = in.read_int("an element's tag");
-    if (i == 0) tags.physical = tag;
-    if (i == 1) tags.surface = tag;
+    if (i == 0) tags.group = tag;
+    if (i == 1) tags.entity = tag;
   }
   return tags;
 }
 
-template <std::size_t n>
-std::array<GlobalIndex, n> read_points(State& state) {
-  std::array<GlobalIndex, n> points;
-  for (GlobalIndex& point : points) point = state.point_of(state.in.read_int("a node tag"));
-  return points;
-}
+/// Reads elements one after the other; most are of the volume of the one before.
+class ElementReader {
+ public:
+  explicit ElementReader(State& state) : state_(state) {}
 
-Patch& patch_of(State& state, const Tags& tags) {
-  const std::string_view name = state.surface_name(tags.physical);
-  if (name.empty())
-    state.in.fail("boundary triangles of surface " + std::to_string(tags.surface) + " (physical tag " +
-                      std::to_string(tags.physical) + ") belong to no named physical group",
-                  "add Physical Surface(\"name\") = {" + std::to_string(tags.surface) + "};");
-  return state.mesh.patch(name, state.in);
-}
-
-void read_element(State& state, const ElementType& type, GlobalIndex tag_count) {
-  const Tags tags = read_tags(state.in, tag_count);
-  switch (type.use) {
-    case ElementUse::tetrahedron:
-      append(state.mesh.cells(), read_points<4>(state), state.in);
-      return;
-    case ElementUse::triangle: {
-      Patch& patch = patch_of(state, tags);
-      append(patch.triangles, read_points<3>(state), state.in);
-      return;
+  void read(const ElementType& type, const Tags& tags) {
+    const auto add = [&](auto& elements) {
+      auto& points = append(elements, {}, state_.in);
+      for (GlobalIndex& point : points) point = state_.point_of(state_.in.read_int("a node tag"));
+    };
+    if (type.is_surface()) {
+      MeshBuilder::with_faces(*type.shape, state_.surface_of(tags.group, tags.entity), add);
+    } else if (type.shape) {
+      if (volume_ != tags) state_.begin_volume(tags.group, tags.entity);
+      volume_ = tags;
+      state_.mesh.with_volumes(*type.shape, add);
+      if (type.curved) state_.mesh.add_curved(1);
     }
-    case ElementUse::refused:
-      state.mesh.refuse(type.plural, 1);
-      [[fallthrough]];
-    case ElementUse::ignored:
-      for (int i = 0; i < type.nodes; ++i) state.in.read_int("a node tag");
+    for (int i = type.corners(); i < type.nodes; ++i) state_.in.read_int("a node tag");
   }
-}
+
+ private:
+  State& state_;
+  std::optional<Tags> volume_;
+};
 
 /// Binary elements come in runs of one type.
 void read_binary_elements(State& state, GlobalIndex count) {
   Scanner& in = state.in;
+  ElementReader elements(state);
   for (GlobalIndex i = 0; i < count;) {
-    const ElementType& type = state.element_type(in.read_int("an element type"));
+    const ElementType type = state.element_type(in.read_int("an element type"));
     const GlobalIndex run = in.read_int_count("the number of elements in a run", {.ints = 2});
     const GlobalIndex tag_count = in.read_int_count("the number of tags", {.ints = 1});
     if (run > count - i)
       in.fail("a run of elements goes beyond their number", "the file is damaged: write it again");
     for (GlobalIndex k = 0; k < run; ++k) {
       in.read_int("an element tag");
-      read_element(state, type, tag_count);
+      elements.read(type, read_tags(in, tag_count));
     }
     i += run;
+  }
+}
+
+/// Format 1 has always two tags, and tells the number of nodes.
+void read_elements_v1(State& state, GlobalIndex count) {
+  Scanner& in = state.in;
+  ElementReader elements(state);
+  for (GlobalIndex i = 0; i < count; ++i) {
+    in.read_int("an element tag");
+    const ElementType type = state.element_type(in.read_int("an element type"));
+    const Tags tags = read_tags(in, 2);
+    const int nodes = in.read_int("the number of nodes of an element");
+    if (nodes != type.nodes)
+      in.fail("an element has " + std::to_string(nodes) + " nodes, where its type has " +
+                  std::to_string(type.nodes),
+              "the file is damaged: write it again");
+    elements.read(type, tags);
   }
 }
 
@@ -103,16 +113,18 @@ void read_elements_v2(State& state) {
   // Most elements are tetrahedra, of seven numbers each at least when they tell their groups.
   reserve_more(state.mesh.cells(), std::min(count, in.capacity({.ints = 7})), in);
 
-  if (state.encoding == Encoding::text) {
+  if (state.version == Version::v1) {
+    read_elements_v1(state, count);
+  } else if (state.encoding == Encoding::text) {
+    ElementReader elements(state);
     for (GlobalIndex i = 0; i < count; ++i) {
       in.read_int("an element tag");
-      const ElementType& type = state.element_type(in.read_int("an element type"));
-      read_element(state, type, in.read_int_count("the number of tags", {.ints = 1}));
+      const ElementType type = state.element_type(in.read_int("an element type"));
+      elements.read(type, read_tags(in, in.read_int_count("the number of tags", {.ints = 1})));
     }
   } else {
     read_binary_elements(state, count);
   }
-  state.mesh.check_refused(in);
 }
 
 }  // namespace alphadot::gmsh

@@ -1,7 +1,6 @@
-// The sections of Gmsh's format 4.1: elements come in blocks of one geometric entity, and entities tell their
-// physical groups.
+// The sections of Gmsh's formats 4.0 and 4.1: elements come in blocks of one geometric entity, and entities
+// tell their physical groups.
 #include <algorithm>
-#include <climits>
 
 #include "io/gmsh_reader_state.hpp"
 
@@ -15,101 +14,129 @@ void read_physical_tags(Scanner& in, Take&& take) {
   for (GlobalIndex i = 0; i < count; ++i) take(in.read_int("a physical tag"));
 }
 
-void read_entity(State& state, int dimension) {
+void read_entity(State& state, int dimension, bool partitioned) {
   Scanner& in = state.in;
   const int tag = in.read_int("an entity tag");
-  // A point has its place here, others their bounding box, which is beyond all numbers when they are empty.
-  for (int i = 0; i < (dimension == 0 ? 3 : 6); ++i) in.skip_real("a bound of an entity");
+  int parent_dimension = dimension;
+  if (partitioned) {
+    parent_dimension = in.read_int("the dimension of a parent");
+    in.read_int("the tag of a parent");
+    const GlobalIndex parts = in.read_long_count("the number of partitions of an entity", {.ints = 1});
+    for (GlobalIndex i = 0; i < parts; ++i) in.read_int("a partition");
+  }
+  // A point has its place here from 4.1 on, others their bounding box, which is beyond all numbers when they
+  // are empty.
+  const int bounds = dimension == 0 && state.version == Version::v4_1 ? 3 : 6;
+  for (int i = 0; i < bounds; ++i) in.skip_real("a bound of an entity");
+  const bool is_interface = dimension == 2 && parent_dimension == 3;
+  if (is_interface) append(state.interfaces, tag, in);
   read_physical_tags(in, [&](int physical) {
-    if (dimension == 2) append(state.surface_groups, {tag, physical}, in);
+    if (dimension >= 2 && !is_interface) append(state.groups, {dimension, tag, physical}, in);
   });
   if (dimension == 0) return;
   const GlobalIndex bounding = in.read_long_count("the number of bounding entities", {.ints = 1});
   for (GlobalIndex i = 0; i < bounding; ++i) in.read_int("a bounding entity");
 }
 
-/// The nodes of one block: first all tags, then all places.
+void read_entities(State& state, bool partitioned) {
+  Scanner& in = state.in;
+  std::array<GlobalIndex, 4> counts;
+  for (GlobalIndex& count : counts)
+    count = in.read_long_count("the number of entities", {.ints = 1, .longs = 1, .reals = 3});
+  for (int dimension = 0; dimension < 4; ++dimension)
+    for (GlobalIndex i = 0; i < counts[static_cast<std::size_t>(dimension)]; ++i)
+      read_entity(state, dimension, partitioned);
+  std::sort(state.groups.begin(), state.groups.end());
+  std::sort(state.interfaces.begin(), state.interfaces.end());
+}
+
+/// A block of nodes or elements begins with its entity: dimension and tag, in 4.0 the other way round.
+struct Entity {
+  int dimension = 0, tag = 0;
+};
+
+Entity read_block_entity(State& state, const char* dimension, const char* tag) {
+  Entity entity;
+  if (state.version == Version::v4_0) entity.tag = state.in.read_int(tag);
+  entity.dimension = state.in.read_int(dimension);
+  if (state.version != Version::v4_0) entity.tag = state.in.read_int(tag);
+  return entity;
+}
+
+/// Tags of nodes and elements have 64 bits from 4.1 on.
+GlobalIndex read_tag(State& state, const char* meaning) {
+  return state.version == Version::v4_0 ? state.in.read_int(meaning) : state.in.read_long(meaning);
+}
+
+RecordShape tags_of(const State& state, GlobalIndex count) {
+  return state.version == Version::v4_0 ? RecordShape{.ints = count} : RecordShape{.longs = count};
+}
+
+/// The nodes of one block: first all tags, then all places; in 4.0 each tag before its place.
 void read_node_block(State& state, std::vector<GlobalIndex>& tags) {
   Scanner& in = state.in;
-  const int dimension = in.read_int("the dimension of a block of nodes");
-  in.read_int("the entity of a block of nodes");
+  const bool alternating = state.version == Version::v4_0;
+  const int dimension =
+      read_block_entity(state, "the dimension of a block of nodes", "the entity of a block of nodes")
+          .dimension;
   const bool parametric = in.read_int("whether the nodes are parametric") != 0;
-  const GlobalIndex count = in.read_long_count("the number of nodes in a block", {.longs = 1, .reals = 3});
+  RecordShape shape = tags_of(state, 1);
+  shape.reals = 3;
+  const GlobalIndex count = in.read_long_count("the number of nodes in a block", shape);
   reserve_more(tags, count, in);
   reserve_more(state.mesh.points(), count, in);
-  for (GlobalIndex i = 0; i < count; ++i) append(tags, in.read_long("a node tag"), in);
+  for (GlobalIndex i = 0; !alternating && i < count; ++i) append(tags, in.read_long("a node tag"), in);
   for (GlobalIndex i = 0; i < count; ++i) {
+    if (alternating) append(tags, GlobalIndex{in.read_int("a node tag")}, in);
     append(state.mesh.points(), read_coordinates(in), in);
     for (int k = 0; parametric && k < std::min(dimension, 3); ++k) in.skip_real("a parametric coordinate");
   }
 }
 
-/// The patch of a surface: the one of its physical groups that has a name.
-Patch& patch_of(State& state, int surface) {
-  std::string_view name;
-  auto group =
-      std::lower_bound(state.surface_groups.begin(), state.surface_groups.end(), std::pair{surface, INT_MIN});
-  for (; group != state.surface_groups.end() && group->first == surface; ++group) {
-    const std::string_view other = state.surface_name(group->second);
-    if (!name.empty() && !other.empty() && other != name)
-      state.in.fail("surface " + std::to_string(surface) + " belongs to two named physical groups, " +
-                        quoted(name) + " and " + quoted(other),
-                    "leave it in one of them");
-    if (name.empty()) name = other;
-  }
-  if (name.empty())
-    state.in.fail(
-        "boundary triangles of surface " + std::to_string(surface) + " belong to no named physical group",
-        state.partitioned ? "save the mesh without partitions"
-                          : "add Physical Surface(\"name\") = {" + std::to_string(surface) + "};");
-  return state.mesh.patch(name, state.in);
-}
-
-template <std::size_t n>
-void read_element_block(State& state, GlobalIndex count, std::vector<std::array<GlobalIndex, n>>& elements) {
-  reserve_more(elements, count, state.in);
-  for (GlobalIndex i = 0; i < count; ++i) {
-    state.in.read_long("an element tag");
-    std::array<GlobalIndex, n>& points = append(elements, {}, state.in);
-    for (GlobalIndex& point : points) point = state.point_of(state.in.read_long("a node tag"));
-  }
-}
-
 GlobalIndex read_element_block(State& state) {
   Scanner& in = state.in;
-  in.read_int("the dimension of a block of elements");
-  const int entity = in.read_int("the entity of a block of elements");
-  const ElementType& type = state.element_type(in.read_int("an element type"));
+  const Entity entity =
+      read_block_entity(state, "the dimension of a block of elements", "the entity of a block of elements");
+  const ElementType type = state.element_type(in.read_int("an element type"));
   const GlobalIndex count =
-      in.read_long_count("the number of elements in a block", {.longs = 1 + type.nodes});
+      in.read_long_count("the number of elements in a block", tags_of(state, 1 + type.nodes));
   if (count == 0) return 0;
-  switch (type.use) {
-    case ElementUse::tetrahedron:
-      read_element_block(state, count, state.mesh.cells());
-      break;
-    case ElementUse::triangle:
-      read_element_block(state, count, patch_of(state, entity).triangles);
-      break;
-    case ElementUse::refused:
-      state.mesh.refuse(type.plural, count);
-      [[fallthrough]];
-    case ElementUse::ignored:
-      for (GlobalIndex i = 0; i < count * (1 + type.nodes); ++i) in.read_long("a tag");
+  const auto read = [&](auto& elements) {
+    reserve_more(elements, count, in);
+    for (GlobalIndex i = 0; i < count; ++i) {
+      read_tag(state, "an element tag");
+      auto& points = append(elements, {}, in);
+      for (GlobalIndex& point : points) point = state.point_of(read_tag(state, "a node tag"));
+      for (int k = type.corners(); k < type.nodes; ++k) read_tag(state, "a node tag");
+    }
+  };
+  const bool is_interface =
+      type.is_surface() && std::binary_search(state.interfaces.begin(), state.interfaces.end(), entity.tag);
+  if (!type.shape || is_interface) {
+    for (GlobalIndex i = 0; i < count * (1 + type.nodes); ++i) read_tag(state, "a tag");
+  } else if (type.is_surface()) {
+    MeshBuilder::with_faces(*type.shape, state.surface_of(state.group_of(2, entity.tag), entity.tag), read);
+  } else {
+    state.begin_volume(state.group_of(3, entity.tag), entity.tag);
+    state.mesh.with_volumes(*type.shape, read);
   }
+  if (type.curved && type.shape && !type.is_surface()) state.mesh.add_curved(count);
   return count;
 }
 
-/// What the header of $Nodes and of $Elements tells. Smallest and largest tag follow; they are of no use
-/// here.
+/// What the header of $Nodes and of $Elements tells. Smallest and largest tag follow from 4.1 on; they are of
+/// no use here.
 struct BlockHeader {
   GlobalIndex blocks;
   GlobalIndex entries;
 };
 
-BlockHeader read_block_header(Scanner& in) {
+BlockHeader read_block_header(State& state) {
+  Scanner& in = state.in;
   BlockHeader header;
   header.blocks = in.read_long_count("the number of blocks", {.ints = 3, .longs = 1});
-  header.entries = in.read_long_count("the number of nodes or elements", {.longs = 2});
+  header.entries = in.read_long_count("the number of nodes or elements", tags_of(state, 2));
+  if (state.version == Version::v4_0) return header;
   in.read_long("the smallest tag");
   in.read_long("the largest tag");
   return header;
@@ -125,16 +152,22 @@ void check_total(const State& state, GlobalIndex found, GlobalIndex announced, c
 }  // namespace
 
 void read_entities_v4(State& state) {
+  state.in.read_line();
+  state.in.set_encoding(state.encoding);
+  read_entities(state, false);
+}
+
+void read_partitioned_entities_v4(State& state) {
   Scanner& in = state.in;
   in.read_line();
   in.set_encoding(state.encoding);
-  std::array<GlobalIndex, 4> counts;
-  for (GlobalIndex& count : counts)
-    count = in.read_long_count("the number of entities", {.ints = 1, .longs = 1, .reals = 3});
-  for (int dimension = 0; dimension < 4; ++dimension)
-    for (GlobalIndex i = 0; i < counts[static_cast<std::size_t>(dimension)]; ++i)
-      read_entity(state, dimension);
-  std::sort(state.surface_groups.begin(), state.surface_groups.end());
+  in.read_long("the number of partitions");
+  const GlobalIndex ghosts = in.read_long_count("the number of ghost entities", {.ints = 2});
+  for (GlobalIndex i = 0; i < ghosts; ++i) {
+    in.read_int("a ghost entity");
+    in.read_int("the partition of a ghost entity");
+  }
+  read_entities(state, true);
 }
 
 void read_nodes_v4(State& state) {
@@ -142,8 +175,10 @@ void read_nodes_v4(State& state) {
   const std::size_t section = in.position();
   in.read_line();
   in.set_encoding(state.encoding);
-  const BlockHeader header = read_block_header(in);
-  in.check_count(header.entries, "the number of nodes", {.longs = 1, .reals = 3});
+  const BlockHeader header = read_block_header(state);
+  RecordShape shape = tags_of(state, 1);
+  shape.reals = 3;
+  in.check_count(header.entries, "the number of nodes", shape);
 
   std::vector<GlobalIndex> tags;
   reserve_more(tags, header.entries, in);
@@ -157,11 +192,10 @@ void read_elements_v4(State& state) {
   Scanner& in = state.in;
   in.read_line();
   in.set_encoding(state.encoding);
-  const BlockHeader header = read_block_header(in);
+  const BlockHeader header = read_block_header(state);
   GlobalIndex found = 0;
   for (GlobalIndex block = 0; block < header.blocks; ++block) found += read_element_block(state);
   check_total(state, found, header.entries, "elements");
-  state.mesh.check_refused(in);
 }
 
 }  // namespace alphadot::gmsh

@@ -1,6 +1,9 @@
 #include "io/mesh_builder.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <span>
 #include <utility>
 
 #include "core/error.hpp"
@@ -9,9 +12,28 @@ namespace alphadot {
 namespace {
 
 // More names than any mesh has: such a file numbers something else in the place of its boundaries.
-constexpr std::size_t most_patches = 10'000;
-// Of a patch with its names and lists, before it has triangles.
-constexpr std::size_t patch_bytes = 256;
+constexpr std::size_t most_surfaces = 10'000;
+// Of a surface with its names and lists, before it has elements.
+constexpr std::size_t surface_bytes = 256;
+// More stretches of cells than a message could make use of.
+constexpr std::size_t most_regions = 1000;
+
+/// "a", "a and b", "a, b and c".
+std::string listed(const std::vector<std::string>& parts) {
+  std::string out;
+  for (std::size_t i = 0; i < parts.size(); ++i)
+    out += (i == 0 ? "" : i + 1 < parts.size() ? ", " : " and ") + parts[i];
+  return out;
+}
+
+/// Whether all points lie in one plane across an axis.
+bool is_plane(const std::vector<Vec3>& points) {
+  for (int axis = 0; axis < 3; ++axis)
+    if (std::all_of(points.begin(), points.end(),
+                    [&](const Vec3& point) { return point[axis] == points.front()[axis]; }))
+      return true;
+  return false;
+}
 
 }  // namespace
 
@@ -19,30 +41,144 @@ MeshBuilder::MeshBuilder(std::string file) {
   mesh_.file = std::move(file);
 }
 
-Patch& MeshBuilder::patch(std::string_view name, const Scanner& scanner) {
-  const auto found = patches_.find(name);
-  if (found != patches_.end()) return mesh_.patches[found->second];
-  const std::size_t most = std::min(most_patches, largest_array(scanner) / patch_bytes);
-  if (mesh_.patches.size() == most)
+Surface& MeshBuilder::surface(std::string_view name, const Scanner& scanner) {
+  const auto found = surfaces_by_name_.find(name);
+  if (found != surfaces_by_name_.end()) return surfaces_[found->second];
+  const std::size_t most = std::min(most_surfaces, largest_array(scanner) / surface_bytes);
+  if (surfaces_.size() == most)
     scanner.fail("more than " + std::to_string(most) + " boundary patches",
                  "check that boundaries, not single triangles, are numbered");
-  patches_.emplace(name, mesh_.patches.size());
-  return mesh_.patches.emplace_back(Patch{std::string(name), {}});
+  surfaces_by_name_.emplace(name, surfaces_.size());
+  return surfaces_.emplace_back(Surface{std::string(name), {}, {}});
 }
 
-void MeshBuilder::check_refused(const Scanner& scanner) const {
-  if (refused_.empty()) return;
-  std::string list;
-  for (const auto& [plural, count] : refused_)
-    list += (list.empty() ? "" : ", ") + std::to_string(count) + " " + std::string(plural);
-  scanner.fail("the mesh holds " + list + ", but only linear tetrahedra and triangles can be used",
-               "mesh the volume with first-order tetrahedra only");
+void MeshBuilder::begin_region(std::string_view name) {
+  if (region_starts_.size() > most_regions) return;
+  if (region_starts_.empty() || region_starts_.back().name != name)
+    region_starts_.push_back({std::string(name), sizes()});
 }
 
-Mesh MeshBuilder::finish(const std::string& remedy) && {
-  if (mesh_.cells.empty()) throw InputError(mesh_.file, 0, "the mesh has no tetrahedra", remedy);
+MeshOfFile MeshBuilder::finish(const std::string& remedy) && {
+  fail_without_cells(remedy);
+  turn_left_handed();
+  cut();
+  make_patches();
   drop_unused_points();
   return std::move(mesh_);
+}
+
+void MeshBuilder::fail_without_cells(const std::string& remedy) const {
+  if (!mesh_.cells.empty() || !pyramids_.empty() || !prisms_.empty() || !hexahedra_.empty()) return;
+  std::size_t faces = 0;
+  for (const Surface& surface : surfaces_) faces += surface.triangles.size() + surface.quadrilaterals.size();
+  if (faces > 0 && is_plane(mesh_.points))
+    throw InputError(
+        mesh_.file, 0,
+        fmt::format("the mesh is two-dimensional: {} triangles and quadrilaterals in a plane, no "
+                    "volume elements",
+                    faces),
+        "alphadot computes flows in three dimensions: extrude the mesh by one layer, with a "
+        "symmetry patch on either side");
+  throw InputError(mesh_.file, 0,
+                   faces > 0 ? fmt::format("the mesh has no volume elements: it is the surface of a body ({} "
+                                           "triangles and quadrilaterals)",
+                                           faces)
+                             : std::string("the mesh has no volume elements"),
+                   remedy);
+}
+
+void MeshBuilder::turn_left_handed() {
+  GlobalIndex turned = 0;
+  const auto at = [&](GlobalIndex point) { return mesh_.points[static_cast<std::size_t>(point)]; };
+  for (auto& [a, b, c, d] : mesh_.cells) {
+    const Vec3 origin = at(a);
+    if (!(dot(cross(at(b) - origin, at(c) - origin), at(d) - origin) < 0)) continue;
+    std::swap(b, c);
+    ++turned;
+  }
+  if (turned > 0)
+    note(
+        fmt::format("{} of {} tetrahedra were left-handed and have been turned", turned, mesh_.cells.size()));
+}
+
+/// Cuts the elements of one shape, the number of its array being `shape`, region by region.
+template <std::size_t n>
+CuttingTally MeshBuilder::cut(std::vector<std::array<GlobalIndex, n>>& elements, std::size_t shape) {
+  CuttingTally total;
+  const std::span all(elements);
+  for (std::size_t i = 0; i < std::max<std::size_t>(region_starts_.size(), 1); ++i) {
+    const std::size_t begin = i == 0 ? 0 : region_starts_[i].first[shape],
+                      end = i + 1 < region_starts_.size() ? region_starts_[i + 1].first[shape] : all.size();
+    if (begin == end) continue;
+    if (!region_starts_.empty())
+      mesh_.regions.push_back({region_starts_[i].name, static_cast<GlobalIndex>(mesh_.cells.size())});
+    total += cut_elements<n>(all.subspan(begin, end - begin), mesh_.points, mesh_.cells);
+  }
+  elements = {};
+  return total;
+}
+
+void MeshBuilder::cut() {
+  if (region_starts_.size() > most_regions) region_starts_.clear();
+  for (const RegionStart& start : region_starts_)
+    if (mesh_.regions.empty() || start.first[0] > static_cast<std::size_t>(mesh_.regions.back().first_cell))
+      mesh_.regions.push_back({start.name, static_cast<GlobalIndex>(start.first[0])});
+    else
+      mesh_.regions.back().name = start.name;
+  std::vector<std::string> kinds;
+  CuttingTally total;
+  const auto add = [&](Shape shape, std::size_t array, auto& elements) {
+    if (elements.empty()) return;
+    const CuttingTally tally = cut(elements, array);
+    kinds.push_back(fmt::format("{} {}", tally.elements, plural(shape)));
+    total += tally;
+  };
+  add(Shape::hexahedron, 3, hexahedra_);
+  add(Shape::prism, 2, prisms_);
+  add(Shape::pyramid, 1, pyramids_);
+  if (curved_ > 0)
+    note(
+        fmt::format("{} volume elements of higher order: their corners are used, the curvature of their "
+                    "sides is lost",
+                    curved_));
+  if (kinds.empty()) return;
+  const auto mean = [](const CuttingTally::Quality& quality, GlobalIndex count) {
+    return quality.sum / static_cast<Real>(std::max<GlobalIndex>(count, 1));
+  };
+  note(fmt::format(
+      "{} cut into {} tetrahedra; scaled Jacobian (1: ideal) {:.3g} at least and {:.3g} in the mean before, "
+      "{:.3g} and {:.3g} after",
+      listed(kinds), total.tetrahedra, total.before.least,
+      mean(total.before, total.elements - total.collapsed), total.after.least,
+      mean(total.after, total.tetrahedra)));
+  if (total.with_inner_point > 0)
+    note(fmt::format("{} warped elements were cut about a new point inside", total.with_inner_point));
+  if (total.left_handed > 0)
+    note(fmt::format("{} of these elements were left-handed and have been turned", total.left_handed));
+  if (total.collapsed > 0)
+    note(fmt::format("{} elements were collapsed to nothing and have been left out", total.collapsed));
+  if (total.thin > 0)
+    note(fmt::format(
+        "{} of these elements are more than 50 times as long as thick, as for a boundary layer: the Euler "
+        "equations have none, and thin cells add to cost and error; mesh without such layers",
+        total.thin));
+}
+
+void MeshBuilder::make_patches() {
+  GlobalIndex quadrilaterals = 0, triangles = 0;
+  for (Surface& surface : surfaces_) {
+    Patch& patch = mesh_.patches.emplace_back(Patch{std::move(surface.name), std::move(surface.triangles)});
+    quadrilaterals += static_cast<GlobalIndex>(surface.quadrilaterals.size());
+    patch.triangles.reserve(patch.triangles.size() + 2 * surface.quadrilaterals.size());
+    for (const auto& quadrilateral : surface.quadrilaterals)
+      for_each_triangle(quadrilateral, [&](const std::array<GlobalIndex, 3>& triangle) {
+        patch.triangles.push_back(triangle);
+        ++triangles;
+      });
+    surface.quadrilaterals = {};
+  }
+  if (quadrilaterals > 0)
+    note(fmt::format("{} boundary quadrilaterals cut into {} triangles", quadrilaterals, triangles));
 }
 
 void MeshBuilder::drop_unused_points() {

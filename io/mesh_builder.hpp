@@ -8,38 +8,82 @@
 #include <vector>
 
 #include "io/bounded_growth.hpp"
+#include "io/element_cutting.hpp"
+#include "io/mesh_of_file.hpp"
 #include "io/scanner.hpp"
-#include "partition/mesh.hpp"
 
 namespace alphadot {
 
-/// Collects points, tetrahedra and named triangles, and counts the elements that the solver cannot take, so
-/// that one message can tell of all of them.
+/// A named part of the boundary as it stands in a file.
+struct Surface {
+  std::string name;
+  std::vector<std::array<GlobalIndex, 3>> triangles;
+  std::vector<std::array<GlobalIndex, 4>> quadrilaterals;
+};
+
+/// Collects points, elements of any shape and named surfaces, and makes tetrahedra and triangles of them.
 class MeshBuilder {
  public:
   explicit MeshBuilder(std::string file);
 
   std::vector<Vec3>& points() { return mesh_.points; }
   std::vector<std::array<GlobalIndex, 4>>& cells() { return mesh_.cells; }
-  /// The patch of that name, made at the first call; later calls may move it.
-  Patch& patch(std::string_view name, const Scanner& scanner);
-  bool has_patch(std::string_view name) const { return patches_.contains(name); }
+  /// The surface of that name, made at the first call; later calls may move it.
+  Surface& surface(std::string_view name, const Scanner& scanner);
+  bool has_surface(std::string_view name) const { return surfaces_by_name_.contains(name); }
 
-  /// Notes elements other than linear tetrahedra and triangles; `plural` names them and is a literal.
-  void refuse(std::string_view plural, GlobalIndex count) { refused_[plural] += count; }
-  /// Throws InputError at the scanner's place when elements were refused.
-  void check_refused(const Scanner& scanner) const;
+  /// Calls act(elements) with the array of that shape, which is one of a volume.
+  template <class Act>
+  void with_volumes(Shape shape, Act&& act) {
+    if (shape == Shape::tetrahedron) act(mesh_.cells);
+    if (shape == Shape::pyramid) act(pyramids_);
+    if (shape == Shape::prism) act(prisms_);
+    if (shape == Shape::hexahedron) act(hexahedra_);
+  }
+  /// The same with an array of a surface.
+  template <class Act>
+  static void with_faces(Shape shape, Surface& surface, Act&& act) {
+    if (shape == Shape::triangle) act(surface.triangles);
+    if (shape == Shape::quadrilateral) act(surface.quadrilaterals);
+  }
 
-  /// The mesh without the points that neither cells nor triangles use. Throws InputError when there are no
-  /// cells, with `remedy`.
-  Mesh finish(const std::string& remedy) &&;
+  /// Volume elements that follow belong to the region of that name.
+  void begin_region(std::string_view name);
+  /// Notes volume elements of which only the corners are used.
+  void add_curved(GlobalIndex count) { curved_ += count; }
+  /// Leaves a remark for the person who gave the file.
+  void note(std::string text) { mesh_.notes.push_back(std::move(text)); }
+
+  /// The mesh: elements cut into tetrahedra and triangles, left-handed ones turned, without the points that
+  /// nothing uses; its notes tell what was done. Throws InputError when there are no cells, with `remedy`.
+  MeshOfFile finish(const std::string& remedy) &&;
 
  private:
+  void fail_without_cells(const std::string& remedy) const;
+  void turn_left_handed();
+  void cut();
+  template <std::size_t n>
+  CuttingTally cut(std::vector<std::array<GlobalIndex, n>>& elements, std::size_t shape);
+  /// Numbers of tetrahedra, pyramids, prisms and hexahedra so far.
+  std::array<std::size_t, 4> sizes() const {
+    return {mesh_.cells.size(), pyramids_.size(), prisms_.size(), hexahedra_.size()};
+  }
+  void make_patches();
   void drop_unused_points();
 
-  Mesh mesh_;
-  std::map<std::string, std::size_t, std::less<>> patches_;
-  std::map<std::string_view, GlobalIndex> refused_;
+  MeshOfFile mesh_;
+  std::vector<std::array<GlobalIndex, 5>> pyramids_;
+  std::vector<std::array<GlobalIndex, 6>> prisms_;
+  std::vector<std::array<GlobalIndex, 8>> hexahedra_;
+  /// Where in the four arrays a region, or another stretch of one, begins.
+  struct RegionStart {
+    std::string name;
+    std::array<std::size_t, 4> first;
+  };
+  std::vector<RegionStart> region_starts_;
+  std::vector<Surface> surfaces_;
+  std::map<std::string, std::size_t, std::less<>> surfaces_by_name_;
+  GlobalIndex curved_ = 0;
 };
 
 /// x, y and z of the next point.

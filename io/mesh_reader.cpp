@@ -3,51 +3,66 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
-#include <stdexcept>
 #include <string_view>
 #include <system_error>
+#include <vector>
 
 #include "core/error.hpp"
+#include "io/foreign_files.hpp"
 #include "io/gmsh_reader.hpp"
+#include "io/gzip.hpp"
 #include "io/su2_reader.hpp"
 #include "io/ugrid_reader.hpp"
 
 namespace alphadot {
 namespace {
 
-enum class Format { gmsh, su2, ugrid_big_endian, ugrid_little_endian };
-
 [[noreturn]] void fail_unknown(const std::string& path, const std::string& what) {
   throw InputError(
       path, 0, what,
-      "known are Gmsh 2.2 and 4.1 (.msh), SU2 (.su2), UGRID (.b8.ugrid, .lb8.ugrid) and what alphadot "
-      "partition makes of them");
+      "known are Gmsh (.msh), SU2 (.su2), UGRID (.ugrid, .b8.ugrid, .lb8.ugrid ...), each also with "
+      ".gz, and what alphadot partition makes of them");
 }
 
-/// Tells the format by the extension.
-Format format_of(const std::string& path) {
-  if (path.ends_with(".msh")) return Format::gmsh;
-  if (path.ends_with(".su2")) return Format::su2;
-  if (path.ends_with(".lb8.ugrid")) return Format::ugrid_little_endian;
-  if (path.ends_with(".b8.ugrid")) return Format::ugrid_big_endian;
-  if (path.ends_with(".cgns"))
+[[noreturn]] void fail_with(const Problem& problem) {
+  throw InputError(std::vector{problem});
+}
+
+/// The name of a file, by which its format is told: without ".gz", in lower case.
+std::string plain_name(std::string name) {
+  std::transform(name.begin(), name.end(), name.begin(),
+                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+  if (name.ends_with(".gz")) name.resize(name.size() - 3);
+  return name;
+}
+
+/// Makes sure that the name is one of a mesh.
+void check_name(const std::string& path, const std::string& name) {
+  if (name.ends_with(".msh") || name.ends_with(".su2") || name.ends_with(".ugrid")) return;
+  if (name.ends_with(".cgns"))
     throw InputError(path, 0, "CGNS files are not read directly",
                      "convert it: alphadot-cgns2su2 " + path + " mesh.su2");
+  if (const auto problem = foreign_name(path, name)) fail_with(*problem);
   fail_unknown(path, "the extension tells no known mesh format");
 }
 
 /// Makes sure that the file begins the way its extension promises.
-void check_beginning(const std::string& path, std::string_view content, Format format) {
-  const bool begins_as_gmsh = content.starts_with("$MeshFormat");
-  if (format == Format::gmsh && !begins_as_gmsh)
-    fail_unknown(path, "the file does not begin with $MeshFormat, so it is no Gmsh file of a known version");
-  if (format != Format::gmsh && begins_as_gmsh)
+void check_beginning(const std::string& path, std::string_view content, const std::string& name) {
+  if (const auto problem = foreign_content(path, content)) fail_with(*problem);
+  const std::string_view beginning = content.substr(0, 256);
+  const std::size_t first = beginning.find_first_not_of(" \t\r\n\xef\xbb\xbf");
+  const bool begins_as_gmsh = first != std::string_view::npos && beginning[first] == '$';
+  if (name.ends_with(".msh") && !begins_as_gmsh)
+    fail_unknown(path, "the file does not begin with a section such as $MeshFormat, so it is no Gmsh file");
+  if (!name.ends_with(".msh") && begins_as_gmsh && beginning.substr(first).starts_with("$MeshFormat"))
     fail_unknown(path, "the file is a Gmsh file, but has another extension");
   // Text has no bytes below tab; a binary file has some among the first few numbers.
-  const std::string_view beginning = content.substr(0, 256);
   const bool binary =
       std::any_of(beginning.begin(), beginning.end(), [](char c) { return c >= 0 && c < '\t'; });
-  if (format == Format::su2 && binary) fail_unknown(path, "the file is binary, so it is no SU2 mesh");
+  if (name.ends_with(".su2") && binary) fail_unknown(path, "the file is binary, so it is no SU2 mesh");
+  const auto form = ugrid_form(name);
+  if (form && form->encoding == Encoding::text && binary)
+    fail_unknown(path, "the file is binary, and .ugrid alone is for text: give it .b8.ugrid or .lb8.ugrid");
 }
 
 std::string read_file(const std::string& path) {
@@ -66,30 +81,31 @@ std::string read_file(const std::string& path) {
   return content;
 }
 
-/// The names in the .mapbc file beside wing.b8.ugrid, which is wing.mapbc.
-SurfaceNames names_beside(const std::string& path, std::string_view extension) {
-  const std::string mapbc = path.substr(0, path.size() - extension.size()) + ".mapbc";
+/// The names in the .mapbc file beside wing.b8.ugrid, which is wing.mapbc or wing.b8.mapbc.
+SurfaceNames names_beside(const std::string& path) {
+  std::filesystem::path stem(path);
+  if (plain_name(path).size() < path.size()) stem.replace_extension();
   std::error_code error;
-  return std::filesystem::exists(mapbc, error) ? read_mapbc(read_file(mapbc), mapbc) : SurfaceNames{};
+  while (stem.has_extension()) {
+    const std::string mapbc = stem.replace_extension(".mapbc");
+    if (std::filesystem::exists(mapbc, error)) return read_mapbc(read_file(mapbc), mapbc);
+    stem.replace_extension();
+  }
+  return {};
 }
 
 }  // namespace
 
-Mesh read_mesh(const std::string& path) {
-  const Format format = format_of(path);
-  const std::string content = read_file(path);
-  check_beginning(path, content, format);
-  switch (format) {
-    case Format::gmsh:
-      return read_gmsh(content, path);
-    case Format::su2:
-      return read_su2(content, path);
-    case Format::ugrid_big_endian:
-      return read_ugrid(content, path, Encoding::big_endian, names_beside(path, ".b8.ugrid"));
-    case Format::ugrid_little_endian:
-      return read_ugrid(content, path, Encoding::little_endian, names_beside(path, ".lb8.ugrid"));
-  }
-  throw std::logic_error("unhandled mesh format");
+MeshOfFile read_mesh(const std::string& path) {
+  const std::string name = plain_name(path);
+  if (const auto problem = foreign_folder(path)) fail_with(*problem);
+  check_name(path, name);
+  std::string content = read_file(path);
+  if (is_gzip(content)) content = gunzip(content, path);
+  check_beginning(path, content, name);
+  if (name.ends_with(".msh")) return read_gmsh(content, path);
+  if (name.ends_with(".su2")) return read_su2(content, path);
+  return read_ugrid(content, path, *ugrid_form(name), names_beside(path));
 }
 
 }  // namespace alphadot

@@ -2,6 +2,8 @@
 
 #include <charconv>
 #include <limits>
+#include <system_error>
+#include <type_traits>
 #include <utility>
 
 #include "core/error.hpp"
@@ -14,6 +16,18 @@ bool is_blank(char c) {
 }
 
 constexpr const char* damaged = "the file is damaged or was not written completely: write it again";
+
+/// Reads 1.0D+00, as Fortran writes double precision: the letter is at `letter`. Returns where it ends.
+const char* read_fortran_exponent(const char* first, const char* letter, const char* last, Real& value,
+                                  std::errc& error) {
+  std::array<char, 64> text;
+  const auto size = std::min<std::size_t>(text.size(), static_cast<std::size_t>(last - first));
+  std::copy_n(first, size, text.begin());
+  text[std::min(size - 1, static_cast<std::size_t>(letter - first))] = 'e';
+  const auto found = std::from_chars(text.data(), text.data() + size, value);
+  error = found.ec;
+  return first + (found.ptr - text.data());
+}
 
 }  // namespace
 
@@ -52,7 +66,7 @@ GlobalIndex Scanner::capacity(const RecordShape& shape) const {
   // As text, a number takes at least a digit and a blank; the last blank may be missing.
   const bool text = encoding_ == Encoding::text;
   const GlobalIndex bytes = text ? 2 * (shape.ints + shape.longs + shape.reals)
-                                 : 4 * shape.ints + 8 * shape.longs + 8 * shape.reals;
+                                 : 4 * shape.ints + 8 * shape.longs + real_bytes_ * shape.reals;
   return (static_cast<GlobalIndex>(remaining()) + (text ? 1 : 0)) / bytes;
 }
 
@@ -117,6 +131,14 @@ std::string_view Scanner::read_line() {
   return line;
 }
 
+std::string_view Scanner::read_rest_of_line() {
+  std::string_view line = read_line();
+  if (comment_ != '\0') line = line.substr(0, line.find(comment_));
+  while (!line.empty() && is_blank(line.front())) line.remove_prefix(1);
+  while (!line.empty() && is_blank(line.back())) line.remove_suffix(1);
+  return line;
+}
+
 bool Scanner::skip_past(std::string_view text) {
   const std::size_t found = content_.find(text, position_);
   if (found == std::string_view::npos) return false;
@@ -137,6 +159,10 @@ void Scanner::expect(std::string_view word) {
   fail(std::string(word) + " should stand here, not " + quoted(found), damaged);
 }
 
+bool Scanner::ends_number(const char* end) const {
+  return end == content_.data() + content_.size() || is_blank(*end) || (comment_ != '\0' && *end == comment_);
+}
+
 template <class T>
 T Scanner::read_text(const char* meaning, const char* kind) {
   skip_blanks();
@@ -147,9 +173,11 @@ T Scanner::read_text(const char* meaning, const char* kind) {
   // std::from_chars knows no leading plus, which some programs write.
   if (*first == '+' && last - first > 1 && first[1] != '-') ++first;
   T value{};
-  const auto [end, error] = std::from_chars(first, last, value);
-  const bool whole = end == last || is_blank(*end) || (comment_ != '\0' && *end == comment_);
-  if (error != std::errc{} || !whole) {
+  auto [end, error] = std::from_chars(first, last, value);
+  if constexpr (std::is_floating_point_v<T>)
+    if (error == std::errc{} && end != last && std::string_view("dD").find(*end) != std::string_view::npos)
+      end = read_fortran_exponent(first, end, last, value, error);
+  if (error != std::errc{} || !ends_number(end)) {
     const std::string word = quoted(read_word());
     if (error == std::errc::result_out_of_range)
       fail(std::string(meaning) + " is out of range: " + word, damaged);
@@ -171,7 +199,7 @@ Real Scanner::read_text_real(const char* meaning) {
 
 void Scanner::skip_real(const char* meaning) {
   if (encoding_ != Encoding::text)
-    read_binary<Real>(meaning);
+    read_binary_real(meaning);
   else if (read_word().empty())
     fail_at_end(meaning);
 }

@@ -26,7 +26,7 @@ inline constexpr Encoding swapped_encoding =
 struct RecordShape {
   GlobalIndex ints = 0;   ///< 32-bit integers
   GlobalIndex longs = 0;  ///< 64-bit integers
-  GlobalIndex reals = 0;  ///< 64-bit reals
+  GlobalIndex reals = 0;
 };
 
 /// Reads on from one place of `content`, which must outlive the scanner. Every mistake is an InputError that
@@ -38,6 +38,8 @@ class Scanner {
   Scanner(std::string_view content, std::string file, char comment = '\0');
 
   void set_encoding(Encoding encoding) { encoding_ = encoding; }
+  /// Reals in binary have 64 bits unless told to have 32.
+  void set_single_reals() { real_bytes_ = 4; }
   Encoding encoding() const { return encoding_; }
   const std::string& file() const { return file_; }
   /// Bytes of the whole file.
@@ -53,7 +55,7 @@ class Scanner {
     return encoding_ == Encoding::text ? read_text_long(meaning) : read_binary<std::int64_t>(meaning);
   }
   Real read_real(const char* meaning) {
-    const Real value = encoding_ == Encoding::text ? read_text_real(meaning) : read_binary<Real>(meaning);
+    const Real value = encoding_ == Encoding::text ? read_text_real(meaning) : read_binary_real(meaning);
     if (!std::isfinite(value)) fail_not_finite(meaning);
     return value;
   }
@@ -74,6 +76,10 @@ class Scanner {
   /// Passes over `bytes` bytes. They must be there.
   void skip(std::size_t bytes) { position_ += bytes; }
 
+  /// Passes over the mark that some programs put at the beginning of text.
+  void skip_byte_order_mark() {
+    if (content_.substr(position_).starts_with("\xef\xbb\xbf")) position_ += 3;
+  }
   /// True when nothing but blanks and comments is left; otherwise stands at the next word.
   bool at_end();
   /// True when nothing but blanks and a comment is left on this line.
@@ -82,7 +88,9 @@ class Scanner {
   std::string_view read_word(char stop = '\0');
   /// What is left of this line, without its end, which is consumed.
   std::string_view read_line();
-  /// The same without consuming it.
+  /// The same without blanks around it and without a comment.
+  std::string_view read_rest_of_line();
+  /// The line without consuming it.
   std::string_view peek_line() const;
   /// Passes over everything up to and with the next `text`; false, and no move, when it never comes.
   bool skip_past(std::string_view text);
@@ -107,8 +115,12 @@ class Scanner {
     position_ += sizeof(T);
     return std::bit_cast<T>(bytes);
   }
+  Real read_binary_real(const char* meaning) {
+    return real_bytes_ == 8 ? read_binary<double>(meaning) : read_binary<float>(meaning);
+  }
   template <class T>
   T read_text(const char* meaning, const char* kind);
+  bool ends_number(const char* end) const;
   std::int32_t read_text_int(const char* meaning);
   std::int64_t read_text_long(const char* meaning);
   Real read_text_real(const char* meaning);
@@ -121,6 +133,7 @@ class Scanner {
   std::string file_;
   char comment_;
   Encoding encoding_ = Encoding::text;
+  GlobalIndex real_bytes_ = 8;
   std::size_t position_ = 0;
   std::size_t start_ = 0;  ///< where the number or word read last begins
 };

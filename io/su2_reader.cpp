@@ -1,7 +1,9 @@
 #include "io/su2_reader.hpp"
 
+#include <algorithm>
 #include <array>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include "io/mesh_builder.hpp"
@@ -15,25 +17,21 @@ constexpr const char* rewrite = "the file is damaged: write it again";
 /// One of the element types of SU2, which are those of VTK.
 struct ElementType {
   int number;
-  int nodes;
-  const char* plural;
+  Shape shape;
 };
-constexpr int triangle = 5;
-constexpr int tetrahedron = 10;
-constexpr std::array<ElementType, 7> element_types{{{3, 2, "lines"},
-                                                    {triangle, 3, "triangles"},
-                                                    {9, 4, "quadrilaterals"},
-                                                    {tetrahedron, 4, "tetrahedra"},
-                                                    {12, 8, "hexahedra"},
-                                                    {13, 6, "prisms"},
-                                                    {14, 5, "pyramids"}}};
+constexpr std::array<ElementType, 4> volume_types{
+    {{10, Shape::tetrahedron}, {12, Shape::hexahedron}, {13, Shape::prism}, {14, Shape::pyramid}}};
+constexpr std::array<ElementType, 2> surface_types{{{5, Shape::triangle}, {9, Shape::quadrilateral}}};
+
+/// What old files of partitioned runs have in the place of a name.
+constexpr std::string_view halo_marker = "SEND_RECEIVE";
 
 class Su2Reader {
  public:
   Su2Reader(std::string_view content, const std::string& file)
       : in_(content, file, '%'), mesh_(file), point_count_(find_point_count(in_)) {}
 
-  Mesh read();
+  MeshOfFile read();
 
  private:
   static GlobalIndex find_point_count(Scanner in);
@@ -42,9 +40,10 @@ class Su2Reader {
   void read_cells();
   void read_marker_tag();
   void read_marker_elements();
+  void read_halo_marker(GlobalIndex count);
+  Shape read_shape(std::span<const ElementType> known, const char* remedy);
   template <std::size_t n>
-  void read_elements(int wanted, GlobalIndex count, std::vector<std::array<GlobalIndex, n>>& elements);
-  const ElementType& read_element_type();
+  void read_element(std::vector<std::array<GlobalIndex, n>>& elements, GlobalIndex left);
   GlobalIndex read_point_id();
   std::optional<GlobalIndex> read_index();
   void end_record();
@@ -57,17 +56,20 @@ class Su2Reader {
   std::optional<GlobalIndex> marker_count_;  ///< as announced
   GlobalIndex markers_found_ = 0;
   std::string_view marker_;  ///< a MARKER_TAG that waits for its MARKER_ELEMS
+  GlobalIndex halo_markers_ = 0;
 };
 
 /// Elements usually come before the points; so that their point ids can be checked where they stand, the
 /// number of points is looked up first.
 GlobalIndex Su2Reader::find_point_count(Scanner in) {
+  in.skip_byte_order_mark();
   for (; !in.at_end(); in.read_line())
     if (in.read_word('=') == "NPOIN" && in.accept('=')) return in.read_long("the number of points");
   in.fail("there is no NPOIN section", "write the points, or check that this is an SU2 mesh");
 }
 
-Mesh Su2Reader::read() {
+MeshOfFile Su2Reader::read() {
+  in_.skip_byte_order_mark();
   while (!in_.at_end()) read_section();
   if (!marker_.empty()) in_.fail("marker " + quoted(marker_) + " has no MARKER_ELEMS", rewrite);
   if (static_cast<GlobalIndex>(mesh_.points().size()) != point_count_)
@@ -78,6 +80,8 @@ Mesh Su2Reader::read() {
     in_.fail("NMARK announces " + std::to_string(*marker_count_) + " markers, but there are " +
                  std::to_string(markers_found_),
              rewrite);
+  if (halo_markers_ > 0)
+    mesh_.note(std::to_string(halo_markers_) + " markers SEND_RECEIVE of an old file have been passed over");
   return std::move(mesh_).finish("write the volume elements into its NELEM section");
 }
 
@@ -87,8 +91,12 @@ void Su2Reader::read_section() {
     in_.fail("a keyword such as NELEM= should stand here, not " + quoted(keyword),
              "check that the section before it is as long as announced");
   if (keyword == "NDIME") {
-    if (in_.read_int("the dimension") != 3)
-      in_.fail("the mesh is not three-dimensional", "only NDIME= 3 can be used");
+    const int dimension = in_.read_int("the dimension");
+    if (dimension == 2)
+      in_.fail("the mesh is two-dimensional (NDIME= 2)",
+               "alphadot computes flows in three dimensions: extrude the mesh by one layer, with a symmetry "
+               "patch on either side");
+    if (dimension != 3) in_.fail("the mesh is not three-dimensional", "only NDIME= 3 can be used");
     is_3d_ = true;
   } else if (keyword == "NZONE") {
     if (in_.read_int("the number of zones") != 1)
@@ -126,52 +134,66 @@ void Su2Reader::read_points() {
 }
 
 void Su2Reader::read_cells() {
-  const GlobalIndex count = in_.read_long_count("the number of elements", {.ints = 1, .longs = 2});
-  read_elements(tetrahedron, count, mesh_.cells());
-  mesh_.check_refused(in_);
+  const GlobalIndex count = in_.read_long_count("the number of elements", {.ints = 1, .longs = 4});
+  for (GlobalIndex i = 0; i < count; ++i) {
+    const Shape shape = read_shape(
+        volume_types, "volumes are of tetrahedra (10), hexahedra (12), prisms (13) and pyramids (14)");
+    mesh_.with_volumes(shape, [&](auto& elements) { read_element(elements, count - i); });
+  }
 }
 
+/// A name is what stands on the line: it may hold blanks, and quotes around it are no part of it.
 void Su2Reader::read_marker_tag() {
   if (!marker_.empty()) in_.fail("marker " + quoted(marker_) + " has no MARKER_ELEMS", rewrite);
   if (in_.at_end_of_line()) in_.fail("a marker has no name", "write MARKER_TAG= name");
-  marker_ = in_.read_word();
-  if (mesh_.has_patch(marker_))
+  marker_ = in_.read_rest_of_line();
+  for (const char quote : {'"', '\''})
+    if (marker_.size() > 2 && marker_.starts_with(quote) && marker_.ends_with(quote))
+      marker_ = marker_.substr(1, marker_.size() - 2);
+  if (mesh_.has_surface(marker_))
     in_.fail("a second marker " + quoted(marker_), "give every marker a name of its own");
 }
 
 void Su2Reader::read_marker_elements() {
   if (marker_.empty()) in_.fail("MARKER_ELEMS without a MARKER_TAG before it", rewrite);
-  const GlobalIndex count = in_.read_long_count("the number of marker elements", {.ints = 1, .longs = 2});
-  read_elements(triangle, count, mesh_.patch(marker_, in_).triangles);
-  mesh_.check_refused(in_);
+  if (marker_ == halo_marker) {
+    read_halo_marker(in_.read_long_count("the number of marker elements", {.ints = 2}));
+  } else {
+    const GlobalIndex count = in_.read_long_count("the number of marker elements", {.ints = 1, .longs = 3});
+    Surface& surface = mesh_.surface(marker_, in_);
+    for (GlobalIndex i = 0; i < count; ++i) {
+      const Shape shape = read_shape(surface_types, "markers are of triangles (5) and quadrilaterals (9)");
+      MeshBuilder::with_faces(shape, surface, [&](auto& elements) { read_element(elements, count - i); });
+    }
+  }
   marker_ = {};
   ++markers_found_;
 }
 
-template <std::size_t n>
-void Su2Reader::read_elements(int wanted, GlobalIndex count,
-                              std::vector<std::array<GlobalIndex, n>>& elements) {
-  reserve_more(elements, std::min(count, in_.capacity({.ints = 1, .longs = n})), in_);
-  for (GlobalIndex i = 0; i < count; ++i) {
-    const ElementType& type = read_element_type();
-    if (type.number == wanted) {
-      std::array<GlobalIndex, n>& points = append(elements, {}, in_);
-      for (GlobalIndex& point : points) point = read_point_id();
-    } else {
-      mesh_.refuse(type.plural, 1);
-      for (int k = 0; k < type.nodes; ++k) read_point_id();
-    }
-    read_index();
-    end_record();
-  }
+/// Points that another rank or a periodic side would send: nothing of the boundary.
+void Su2Reader::read_halo_marker(GlobalIndex count) {
+  end_record();
+  in_.read_line();
+  if (in_.peek_line().find("SEND_TO") != std::string_view::npos) in_.read_line();
+  for (GlobalIndex i = 0; i < count && !in_.at_end(); ++i) in_.read_line();
+  ++halo_markers_;
 }
 
-const ElementType& Su2Reader::read_element_type() {
+Shape Su2Reader::read_shape(std::span<const ElementType> known, const char* remedy) {
   const int number = in_.read_int("an element type");
-  for (const ElementType& type : element_types)
-    if (type.number == number) return type;
-  in_.fail("elements of SU2's type " + std::to_string(number) + " are not known",
-           "only tetrahedra (10) and, in markers, triangles (5) can be used");
+  for (const ElementType& type : known)
+    if (type.number == number) return type.shape;
+  in_.fail("elements of SU2's type " + std::to_string(number) + " cannot stand here", remedy);
+}
+
+/// Reads an element, the first of `left` that are probably alike.
+template <std::size_t n>
+void Su2Reader::read_element(std::vector<std::array<GlobalIndex, n>>& elements, GlobalIndex left) {
+  if (elements.empty()) reserve_more(elements, std::min(left, in_.capacity({.longs = n})), in_);
+  std::array<GlobalIndex, n>& points = append(elements, {}, in_);
+  for (GlobalIndex& point : points) point = read_point_id();
+  read_index();
+  end_record();
 }
 
 GlobalIndex Su2Reader::read_point_id() {
@@ -203,7 +225,7 @@ void Su2Reader::pass_over_data() {
 
 }  // namespace
 
-Mesh read_su2(std::string_view content, const std::string& file) {
+MeshOfFile read_su2(std::string_view content, const std::string& file) {
   return Su2Reader(content, file).read();
 }
 

@@ -4,16 +4,17 @@
 #include <string>
 #include <string_view>
 
-#include "partition/mesh.hpp"
+#include "io/mesh_of_file.hpp"
 
 namespace alphadot {
 
-/// The tetrahedra and markers of a three-dimensional SU2 file. `content` holds the whole file and `file`
-/// names it in messages. Patches are the markers. Sections may come in any order; keywords that do not
-/// concern a single-zone tetrahedral mesh (FFD boxes, periodic pairs and the like) are passed over with their
-/// data. Throws InputError for damaged files, other dimensions, several zones, elements other than tetrahedra
-/// and triangles, points numbered otherwise than by their order, and files without tetrahedra. Source: SU2
-/// documentation, "Mesh File" (su2code.github.io/docs_v7/Mesh-File).
-Mesh read_su2(std::string_view content, const std::string& file);
+/// The mesh in a three-dimensional SU2 file. `content` holds the whole file and `file` names it in messages.
+/// Elements of any shape are cut into tetrahedra and triangles (see element_cutting.hpp). Patches are the
+/// markers, whose names may hold blanks; SEND_RECEIVE is none. Sections may come in any order; keywords that
+/// do not concern a single-zone mesh (FFD boxes, periodic pairs and the like) are passed over with their
+/// data. Throws InputError for damaged files, other dimensions, several zones, elements of another dimension
+/// than their section, points numbered otherwise than by their order, and files without volume elements.
+/// Source: SU2 documentation, "Mesh File" (su2code.github.io/docs_v7/Mesh-File).
+MeshOfFile read_su2(std::string_view content, const std::string& file);
 
 }  // namespace alphadot

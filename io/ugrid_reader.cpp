@@ -1,5 +1,6 @@
 #include "io/ugrid_reader.hpp"
 
+#include <algorithm>
 #include <array>
 #include <utility>
 
@@ -15,15 +16,13 @@ struct Header {
   GlobalIndex points = 0, triangles = 0, quadrilaterals = 0, tetrahedra = 0, pyramids = 0, prisms = 0,
               hexahedra = 0;
 
-  /// Whether `size` bytes can hold what the header announces, itself included.
-  bool fits(std::size_t size) const {
-    for (const GlobalIndex count :
-         {points, triangles, quadrilaterals, tetrahedra, pyramids, prisms, hexahedra})
-      if (count < 0) return false;
-    // Three reals a point; the nodes of every element; an id for every surface element.
-    const GlobalIndex bytes = 28 + 24 * points + (12 + 4) * triangles + (16 + 4) * quadrilaterals +
-                              16 * tetrahedra + 20 * pyramids + 24 * prisms + 32 * hexahedra;
-    return static_cast<std::uint64_t>(bytes) <= size;
+  std::array<GlobalIndex, 7> counts() const {
+    return {points, triangles, quadrilaterals, tetrahedra, pyramids, prisms, hexahedra};
+  }
+  GlobalIndex faces() const { return triangles + quadrilaterals; }
+  GlobalIndex ints() const {
+    return (3 + 1) * triangles + (4 + 1) * quadrilaterals + 4 * tetrahedra + 5 * pyramids + 6 * prisms +
+           8 * hexahedra;
   }
 };
 
@@ -36,86 +35,196 @@ Header read_header(Scanner& in) {
   return header;
 }
 
-void check_size(const Scanner& in, const Header& header, std::string_view content) {
-  if (header.fits(content.size())) return;
-  const bool big_endian = in.encoding() == Encoding::big_endian;
-  Scanner other(content, in.file());
-  other.set_encoding(big_endian ? Encoding::little_endian : Encoding::big_endian);
-  if (read_header(other).fits(content.size()))
-    in.fail_at(0, std::string("the numbers are in ") + (big_endian ? "little" : "big") + "-endian order",
-               std::string("give the file the extension ") + (big_endian ? ".lb8.ugrid" : ".b8.ugrid"));
+/// Reads the header, with the lengths of its record and of the next where there are any.
+class Beginning {
+ public:
+  Beginning(Scanner& in, const UgridForm& form) {
+    in.set_encoding(form.encoding);
+    if (form.single_reals) in.set_single_reals();
+    const bool has_records = looks_recorded(in);
+    if (form.fortran_records) begin_ = in.read_int("the length of a record");
+    header_ = read_header(in);
+    if (form.fortran_records) {
+      end_ = in.read_int("the length of a record");
+      in.read_int("the length of a record");  // beyond 2 GB it tells nothing
+    }
+    const auto counts = header_.counts();
+    // Text has two characters a number at least, and may end without a blank.
+    const GlobalIndex int_bytes = form.encoding == Encoding::text ? 2 : 4,
+                      real_bytes = form.encoding == Encoding::text ? 2
+                                   : form.single_reals             ? 4
+                                                                   : 8;
+    const bool positive = std::all_of(counts.begin(), counts.end(), [](GlobalIndex n) { return n >= 0; });
+    const GlobalIndex bytes = 3 * real_bytes * header_.points + int_bytes * header_.ints();
+    fits_ = positive && begin_ == end_ && has_records == form.fortran_records &&
+            bytes <= static_cast<GlobalIndex>(in.remaining()) + 1;
+  }
+
+  const Header& header() const { return header_; }
+  /// Whether the rest of the file can hold what the header announces.
+  bool fits() const { return fits_; }
+
+ private:
+  /// Whether the length of the header's record stands before and behind it.
+  static bool looks_recorded(Scanner in) {
+    constexpr std::size_t length = 28;
+    if (in.encoding() == Encoding::text || in.remaining() < length + 8) return false;
+    const bool before = in.read_int("the length of a record") == length;
+    in.skip(length);
+    return before && in.read_int("the length of a record") == length;
+  }
+
+  Header header_;
+  std::int32_t begin_ = 0, end_ = 0;
+  bool fits_;
+};
+
+struct KnownForm {
+  std::string_view extension;
+  UgridForm form;
+};
+constexpr std::array<KnownForm, 9> known_forms{{{".b8.ugrid", {Encoding::big_endian, false, false}},
+                                                {".lb8.ugrid", {Encoding::little_endian, false, false}},
+                                                {".b4.ugrid", {Encoding::big_endian, true, false}},
+                                                {".lb4.ugrid", {Encoding::little_endian, true, false}},
+                                                {".r8.ugrid", {Encoding::big_endian, false, true}},
+                                                {".lr8.ugrid", {Encoding::little_endian, false, true}},
+                                                {".r4.ugrid", {Encoding::big_endian, true, true}},
+                                                {".lr4.ugrid", {Encoding::little_endian, true, true}},
+                                                {".ugrid", {Encoding::text, false, false}}}};
+
+/// Reads the header; where it cannot be, tells the form in which it could.
+Header read_beginning(Scanner& in, const UgridForm& form, std::string_view content) {
+  const Beginning beginning(in, form);
+  if (beginning.fits()) return beginning.header();
+  for (const auto& [extension, other] : known_forms) {
+    if (other.encoding == Encoding::text || other.single_reals != form.single_reals || content.size() < 40)
+      continue;
+    Scanner again(content, in.file());
+    if (!Beginning(again, other).fits()) continue;
+    const bool little = other.encoding == Encoding::little_endian;
+    in.fail_at(0,
+               std::string("the numbers are in ") + (little ? "little" : "big") + "-endian order" +
+                   (other.fortran_records ? ", in Fortran's records" : ""),
+               "give the file the extension " + std::string(extension));
+  }
   in.fail_at(0, "the header announces more than the " + std::to_string(content.size()) + " bytes of the file",
              damaged);
 }
 
+GlobalIndex read_point(Scanner& in, GlobalIndex point_count) {
+  const GlobalIndex id = in.read_int("a point id");
+  if (id < 1 || id > point_count)
+    in.fail("an element uses point " + std::to_string(id) + " of " + std::to_string(point_count), damaged);
+  return id - 1;
+}
+
 /// The point ids of one element. In the file they start from 1.
 template <std::size_t n>
-std::array<GlobalIndex, n> read_points(Scanner& in, GlobalIndex point_count) {
+std::array<GlobalIndex, n> read_element(Scanner& in, GlobalIndex point_count) {
   std::array<GlobalIndex, n> points;
-  for (GlobalIndex& point : points) {
-    const GlobalIndex id = in.read_int("a point id");
-    if (id < 1 || id > point_count)
-      in.fail("an element uses point " + std::to_string(id) + " of " + std::to_string(point_count), damaged);
-    point = id - 1;
-  }
+  for (GlobalIndex& point : points) point = read_point(in, point_count);
+  // A pyramid has its apex in the middle: 1 4 5 2 go round its base and 3 is the apex.
+  if constexpr (n == 5) points = {points[0], points[3], points[4], points[1], points[2]};
   return points;
 }
 
-/// Reads the triangles, whose surface ids stand after all of them, and passes over the ids.
-void read_triangles(Scanner& in, const Header& header, const SurfaceNames& names, MeshBuilder& mesh) {
+/// Reads the boundary: triangles, quadrilaterals, then the surface ids of both.
+void read_boundary(Scanner& in, const Header& header, const SurfaceNames& names, MeshBuilder& mesh) {
   Scanner ids = in;
-  ids.skip(12 * static_cast<std::size_t>(header.triangles));
-  Patch* patch = nullptr;
-  std::int32_t id_of_patch = 0;
-  for (GlobalIndex i = 0; i < header.triangles; ++i) {
+  if (in.encoding() == Encoding::text)
+    for (GlobalIndex i = 0; i < 3 * header.triangles + 4 * header.quadrilaterals; ++i)
+      ids.read_int("a point id");
+  else
+    ids.skip(static_cast<std::size_t>(4 * (3 * header.triangles + 4 * header.quadrilaterals)));
+  Surface* surface = nullptr;
+  std::int32_t id_of_surface = 0;
+  for (GlobalIndex i = 0; i < header.faces(); ++i) {
     const std::int32_t id = ids.read_int("a surface id");
-    if (patch == nullptr || id != id_of_patch) {
+    if (surface == nullptr || id != id_of_surface) {
       const auto name = names.find(id);
-      patch = &mesh.patch(name != names.end() ? name->second : "patch_" + std::to_string(id), ids);
-      id_of_patch = id;
+      surface = &mesh.surface(name != names.end() ? name->second : "patch_" + std::to_string(id), ids);
+      id_of_surface = id;
     }
-    append(patch->triangles, read_points<3>(in, header.points), ids);
+    if (i < header.triangles)
+      append(surface->triangles, read_element<3>(in, header.points), ids);
+    else
+      append(surface->quadrilaterals, read_element<4>(in, header.points), ids);
   }
   in = ids;
 }
 
+/// The name in what stands behind the numbers of a line.
+std::string name_in(std::string_view rest) {
+  const auto trimmed = [](std::string_view text) {
+    const std::size_t begin = std::min(text.find_first_not_of(" \t"), text.size());
+    return text.substr(begin, text.find_last_not_of(" \t") + 1 - begin);
+  };
+  const std::size_t remark = rest.find_first_of("!#");
+  std::string_view name = trimmed(rest.substr(0, remark));
+  if (name.empty() && remark != std::string_view::npos) name = trimmed(rest.substr(remark + 1));
+  return std::string(name);
+}
+
+/// Passes over lines that are empty or a comment.
+void skip_comment_lines(Scanner& in) {
+  while (!in.at_end() && (in.peek_line().starts_with('#') || in.peek_line().starts_with('!'))) in.read_line();
+}
+
+/// Reads "id condition ... name" with `numbers` numbers before the name.
+void read_mapbc_line(Scanner& in, int numbers, SurfaceNames& names) {
+  const std::int32_t id = in.read_int("a surface id");
+  for (int i = 1; i < numbers; ++i) in.read_int("a boundary condition");
+  const std::string name = name_in(in.read_rest_of_line());
+  if (!name.empty()) names[id] = name;
+}
+
 }  // namespace
 
-Mesh read_ugrid(std::string_view content, const std::string& file, Encoding encoding,
-                const SurfaceNames& names) {
+std::optional<UgridForm> ugrid_form(std::string_view name) {
+  for (const auto& [extension, form] : known_forms)
+    if (name.ends_with(extension)) return form;
+  return std::nullopt;
+}
+
+MeshOfFile read_ugrid(std::string_view content, const std::string& file, const UgridForm& form,
+                      const SurfaceNames& names) {
   Scanner in(content, file);
-  in.set_encoding(encoding);
-  const Header header = read_header(in);
-  check_size(in, header, content);
+  if (form.encoding == Encoding::text) in.skip_byte_order_mark();
+  const Header header = read_beginning(in, form, content);
 
   MeshBuilder mesh(file);
-  const std::pair<const char*, GlobalIndex> others[] = {{"quadrilaterals", header.quadrilaterals},
-                                                        {"pyramids", header.pyramids},
-                                                        {"prisms", header.prisms},
-                                                        {"hexahedra", header.hexahedra}};
-  for (const auto& [plural, count] : others)
-    if (count > 0) mesh.refuse(plural, count);
-  mesh.check_refused(in);
-
-  mesh.points().reserve(static_cast<std::size_t>(header.points));
-  for (GlobalIndex i = 0; i < header.points; ++i) mesh.points().push_back(read_coordinates(in));
-  read_triangles(in, header, names, mesh);
-  mesh.cells().reserve(static_cast<std::size_t>(header.tetrahedra));
-  for (GlobalIndex i = 0; i < header.tetrahedra; ++i)
-    mesh.cells().push_back(read_points<4>(in, header.points));
-  return std::move(mesh).finish("write its volume elements as tetrahedra");
+  reserve_more(mesh.points(), header.points, in);
+  for (GlobalIndex i = 0; i < header.points; ++i) append(mesh.points(), read_coordinates(in), in);
+  read_boundary(in, header, names, mesh);
+  const std::pair<Shape, GlobalIndex> volumes[] = {{Shape::tetrahedron, header.tetrahedra},
+                                                   {Shape::pyramid, header.pyramids},
+                                                   {Shape::prism, header.prisms},
+                                                   {Shape::hexahedron, header.hexahedra}};
+  for (const auto& [shape, count] : volumes)
+    mesh.with_volumes(shape, [&, size = count](auto& elements) {
+      constexpr std::size_t n = std::tuple_size_v<typename std::decay_t<decltype(elements)>::value_type>;
+      reserve_more(elements, size, in);
+      for (GlobalIndex i = 0; i < size; ++i) append(elements, read_element<n>(in, header.points), in);
+    });
+  return std::move(mesh).finish("write its volume elements");
 }
 
 SurfaceNames read_mapbc(std::string_view content, const std::string& file) {
   Scanner in(content, file);
+  in.skip_byte_order_mark();
+  const bool of_usm3d = in.peek_line().starts_with('#');
+  skip_comment_lines(in);
+  SurfaceNames names;
+  if (of_usm3d) {
+    for (; !in.at_end(); skip_comment_lines(in)) read_mapbc_line(in, 5, names);
+    return names;
+  }
   const GlobalIndex count = in.read_int_count("the number of surfaces", {.ints = 2});
   in.read_line();
-  SurfaceNames names;
   for (GlobalIndex i = 0; i < count; ++i) {
-    const std::int32_t id = in.read_int("a surface id");
-    in.read_int("a boundary condition");
-    if (!in.at_end_of_line()) names[id] = in.read_word();
-    in.read_line();
+    skip_comment_lines(in);
+    read_mapbc_line(in, 2, names);
   }
   return names;
 }

@@ -21,7 +21,8 @@ namespace alphadot {
 namespace {
 
 void describe_mesh(const std::string& file) {
-  const Mesh mesh = read_mesh(file);
+  const MeshOfFile mesh = read_mesh(file);
+  for (const auto& note : mesh.notes) fmt::print("{}\n", note);
   mesh.validate();
   fmt::print("mesh {}: {} tetrahedra, {} points, hash {}\n", file, mesh.cells.size(), mesh.points.size(),
              mesh.hash());

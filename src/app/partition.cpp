@@ -26,10 +26,11 @@ MeshPart read_part(const std::string& file, const Communicator& comm) {
   bool prepared = false;
   comm.on_root([&] { prepared = is_hdf5(file); });
   if (comm.any(prepared)) return read_partitioned_mesh(file, comm);
-  Mesh mesh;
+  MeshOfFile mesh;
   std::vector<int> owner;
   comm.on_root([&] {
     mesh = read_mesh(file);
+    for (const auto& note : mesh.notes) spdlog::info("{}: {}", file, note);
     mesh.validate();
     const EqualShares shares(static_cast<GlobalIndex>(mesh.cells.size()), comm.size());
     for (GlobalIndex cell = 0; cell < shares.total; ++cell) owner.push_back(shares.rank_of(cell));

@@ -9,10 +9,12 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "core/log.hpp"
 #include "core/memory.hpp"
 #include "io/case_file.hpp"
 #include "io/mesh_reader.hpp"
 #include "io/partitioned_mesh.hpp"
+#include "io/toml_text.hpp"
 #include "space/plausibility.hpp"
 
 namespace alphadot {
@@ -39,9 +41,10 @@ std::vector<BoundaryKind> match_patches(const Case& settings, const std::vector<
   for (const auto& name : patch_names) {
     const auto found = settings.boundary.find(name);
     if (found == settings.boundary.end())
-      problems.push_back(
-          {settings.file, 0, fmt::format("patch \"{}\" of the mesh has no boundary condition", name),
-           fmt::format("add {} = \"wall\", \"symmetry\", \"farfield\", ... to [boundary]", name)});
+      problems.push_back({settings.file, 0,
+                          fmt::format("patch \"{}\" of the mesh has no boundary condition", name),
+                          fmt::format("add {} = \"wall\", \"symmetry\", \"farfield\", ... to [boundary]",
+                                      toml_string(name))});
     else
       kinds.push_back(found->second);
   }
@@ -57,9 +60,10 @@ std::vector<BoundaryKind> match_patches(const Case& settings, const std::vector<
 /// Reads a mesh that the root holds whole before it is cut.
 void distribute_from_root(Setup& setup, const Communicator& comm) {
   const auto& settings = setup.settings;
-  Mesh mesh;
+  MeshOfFile mesh;
   comm.on_root([&] {
     mesh = read_mesh(settings.mesh.file);
+    for (const auto& note : mesh.notes) spdlog::info("{}: {}", settings.mesh.file, note);
     mesh.validate();
     std::vector<std::string> names;
     for (const auto& patch : mesh.patches) names.push_back(patch.name);

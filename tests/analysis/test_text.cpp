@@ -178,15 +178,86 @@ TEST(Avl, EntriesAreFoundByName) {
   EXPECT_NEAR(found.at("Cref"), 2, 1e-9);
   EXPECT_NEAR(found.at("Alpha"), 2, 1e-9);
   EXPECT_NEAR(found.at("Mach"), 2.5, 1e-9);
-  EXPECT_NEAR(found.at("Xnp"), 5.5 - 2 * found.at("Cma") / found.at("CLa"), 1e-5);
+  EXPECT_NEAR(found.at("Xnp"), 5.5 - 2 * 10.5 / 10.3, 1e-6);  // from CN_alpha, as in the other files
 }
 
-TEST(Avl, UnknownColumnsAreLeftOut) {
+TEST(Avl, UnknownColumnsAreNoNumbers) {
   FlightPoint point = example();
   std::erase_if(point.derivatives, [](const auto& column) { return column.first != Variable::alpha; });
-  const auto found = assignments(avl_stability_text(point));
+  const std::string text = avl_stability_text(point);
+  const auto found = assignments(text);
   EXPECT_TRUE(found.contains("CLa"));
-  for (const char* name : {"CLb", "CLp", "CLq", "CLad"}) EXPECT_FALSE(found.contains(name)) << name;
+  for (const char* name : {"CLb", "CLp", "CLq", "CLad"}) {
+    EXPECT_FALSE(found.contains(name)) << name;
+    EXPECT_TRUE(std::regex_search(text, std::regex(std::string(name) + " = +nan"))) << name;
+  }
+}
+
+/// The number in columns [first, last) of a line, all counted from 0; NAN when there is none.
+Real number_at(const std::string& text, std::size_t line, std::size_t first, std::size_t last) {
+  std::istringstream lines(text);
+  std::string found;
+  for (std::size_t i = 0; i <= line; ++i) std::getline(lines, found);
+  if (found.size() <= first) return NAN;
+  std::istringstream columns(found.substr(first, last - first));
+  Real value = NAN;
+  std::string rest;
+  return columns >> value && !(columns >> rest) ? value : NAN;
+}
+
+// Where programs that read AVL's files by line and column look: references in lines 8 and 9, alpha to Mach in
+// 15 to 17, totals in 19 to 24, alpha and beta derivatives in 36 to 40, those of the rates in 44 to 48, the
+// neutral point in 50.
+TEST(Avl, NumbersStandOnAvlsLines) {
+  FlightPoint full = example(), half = example();
+  full.title = "a title\nof two lines";
+  half.reference.half_model = true;
+  for (const Variable variable : {Variable::beta, Variable::p, Variable::r, Variable::betadot})
+    half.derivatives.erase(variable);
+  for (const FlightPoint& point : {full, half}) {
+    const std::string text = avl_stability_text(point);
+    const auto by_key = assignments(text);
+    EXPECT_EQ(number_at(text, 8, 10, 16), 3);
+    EXPECT_EQ(number_at(text, 8, 31, 37), 2);
+    EXPECT_EQ(number_at(text, 9, 10, 16), 5.5);
+    EXPECT_EQ(number_at(text, 15, 10, 19), 2);
+    EXPECT_EQ(number_at(text, 17, 10, 19), 2.5);
+    EXPECT_EQ(number_at(text, 20, 31, 41), -0.5);
+    EXPECT_NEAR(number_at(text, 23, 10, 19), by_key.at("CLtot"), 1e-12);
+    EXPECT_NEAR(number_at(text, 24, 10, 19), by_key.at("CDtot"), 1e-12);
+    const char* const coefficients[] = {"CL", "CY", "Cl", "Cm", "Cn"};
+    for (std::size_t i = 0; i < 5; ++i)
+      for (const auto& [suffix, line, column] :
+           {std::tuple{"a", 36, 24}, {"b", 36, 44}, {"p", 44, 24}, {"q", 44, 44}, {"r", 44, 64}}) {
+        const std::string name = std::string(coefficients[i]) + suffix;
+        const Real value = number_at(text, static_cast<std::size_t>(line) + i,
+                                     static_cast<std::size_t>(column), static_cast<std::size_t>(column) + 10);
+        if (by_key.contains(name))
+          EXPECT_EQ(value, by_key.at(name)) << name;
+        else
+          EXPECT_TRUE(std::isnan(value) && point.reference.half_model) << name;
+      }
+    EXPECT_NEAR(number_at(text, 50, 22, 33), 5.5 - 2 * 10.5 / 10.3, 1e-6);
+  }
+}
+
+// Six columns hold a number to be read by column; what they cannot hold must not be read as another one.
+TEST(Avl, ReferencesAreReadWholeOrNotAtAll) {
+  FlightPoint point = example();
+  for (const Real area :
+       {3.0, 0.12566, 0.7853981634, 28.274333882, 12345.678, 0.00125, 4.2e-5, 1234567.0, 9.9e7}) {
+    point.reference.area = area;
+    const std::string text = avl_stability_text(point);
+    EXPECT_NEAR(assignments(text).at("Sref"), area, 5e-5 * area);
+    const Real by_column = number_at(text, 8, 10, 16);
+    if (!std::isnan(by_column)) {
+      EXPECT_NEAR(by_column, area, 0.05 * area) << area;
+    }
+    if (area >= 0.1 && area < 99999) {
+      EXPECT_NEAR(by_column, area, 1e-3 * area);
+    }
+    EXPECT_EQ(number_at(text, 8, 31, 37), 2);
+  }
 }
 
 /// Value of a JSBSim function of the text at the given properties.

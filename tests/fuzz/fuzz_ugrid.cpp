@@ -4,8 +4,8 @@
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace alphadot;
   const std::string_view content = fuzz::text(data, size);
-  for (const Encoding encoding : {Encoding::big_endian, Encoding::little_endian})
-    fuzz::check_mesh(size, [&] { return read_ugrid(content, "fuzz", encoding); });
+  for (const char* name : {".ugrid", ".b8.ugrid", ".lb8.ugrid", ".b4.ugrid", ".lr8.ugrid"})
+    fuzz::check_mesh(size, [&] { return read_ugrid(content, "fuzz", *ugrid_form(name)); });
   const fuzz::LargestAllocation limit(size);
   try {
     read_mapbc(content, "fuzz.mapbc");

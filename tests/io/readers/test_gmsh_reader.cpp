@@ -61,17 +61,49 @@ TEST(GmshReader, DropsPointsThatNothingUses) {
   test::expect_two_cells(read_gmsh(content, "mesh.msh"), "wall", "far field");
 }
 
-TEST(GmshReader, KeepsTheOrientationOfCells) {
+TEST(GmshReader, TurnsLeftHandedCells) {
   // The second node of the first tetrahedron takes the place of the third.
   const std::string content = with(gmsh_22(Encoding::text), "8 4 2 3 1 1 2 3 4", "8 4 2 3 1 1 3 2 4");
-  const Mesh mesh = read_gmsh(content, "mesh.msh");
-  EXPECT_EQ(mesh.cells[0], (std::array<GlobalIndex, 4>{0, 2, 1, 3}));
-  EXPECT_THROW(mesh.validate(), InputError);
+  const MeshOfFile mesh = read_gmsh(content, "mesh.msh");
+  test::expect_two_cells(mesh, "wall", "far field");
+  ASSERT_EQ(mesh.notes.size(), 1u);
+  test::expect_parts(mesh.notes[0], {"1 of 2 tetrahedra were left-handed"});
+}
+
+TEST(GmshReader, NamesGroupsWithoutNamesByTheirTags) {
+  const std::string unnamed = "group_2";
+  for (const auto& [content, name] :
+       {std::pair{with(gmsh_22(Encoding::text), "2 2 \"far field\"", "1 2 \"far field\""), unnamed},
+        std::pair{with(gmsh_41(Encoding::text), "2 2 \"far field\"", "2 9 \"far field\""), unnamed}}) {
+    const MeshOfFile mesh = read_gmsh(content, "mesh.msh");
+    test::expect_two_cells(mesh, "wall", name);
+    ASSERT_EQ(mesh.notes.size(), 1u);
+    test::expect_parts(mesh.notes[0], {"physical groups of dimension 2", "group_2"});
+  }
+}
+
+TEST(GmshReader, NamesSurfacesInNoGroupByTheirTags) {
+  std::string content = gmsh_22(Encoding::text);
+  for (int i = 0; i < 3; ++i) content = with(content, " 2 2 2 20 ", " 2 2 0 20 ");
+  test::expect_two_cells(read_gmsh(content, "mesh.msh"), "wall", "surface_20");
+  content = with(gmsh_41(Encoding::text), "1 -2 0 ", "0 0 ");
+  test::expect_two_cells(read_gmsh(content, "mesh.msh"), "wall", "surface_20");
+}
+
+TEST(GmshReader, TellsTheRegionsOfTheCells) {
+  std::string content = gmsh_22(Encoding::text);
+  MeshOfFile mesh = read_gmsh(content, "mesh.msh");
+  ASSERT_EQ(mesh.regions.size(), 1u);
+  EXPECT_EQ(mesh.regions[0].name, "fluid");
+  mesh = read_gmsh(with(content, "9 4 2 3 1 ", "9 4 2 5 1 "), "mesh.msh");
+  ASSERT_EQ(mesh.regions.size(), 2u);
+  EXPECT_EQ(mesh.regions[1].name, "group_5");
+  EXPECT_EQ(mesh.regions[1].first_cell, 1);
 }
 
 TEST(GmshReader, JoinsGroupsOfOneName) {
   const std::string content = with(gmsh_41(Encoding::text), "far field", "wall");
-  const Mesh mesh = read_gmsh(content, "mesh.msh");
+  const MeshOfFile mesh = read_gmsh(content, "mesh.msh");
   ASSERT_EQ(mesh.patches.size(), 1u);
   EXPECT_EQ(mesh.patches[0].triangles.size(), 6u);
 }

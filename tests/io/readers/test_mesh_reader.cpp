@@ -1,6 +1,8 @@
 // read_mesh: the choice of the format, and files that Gmsh and meshio wrote (data/make_samples.py).
 #include "io/mesh_reader.hpp"
 
+#include <zlib.h>
+
 #include <filesystem>
 #include <fstream>
 
@@ -45,17 +47,72 @@ TEST_F(MeshReader, ReadsEveryFormat) {
 
 TEST_F(MeshReader, RefusesWhatIsNoKnownMesh) {
   const char* const known =
-      "known are Gmsh 2.2 and 4.1 (.msh), SU2 (.su2), UGRID (.b8.ugrid, .lb8.ugrid) and what alphadot "
-      "partition makes of "
-      "them";
+      "known are Gmsh (.msh), SU2 (.su2), UGRID (.ugrid, .b8.ugrid, .lb8.ugrid ...), each also with .gz, and "
+      "what alphadot partition makes of them";
   const std::string gmsh = test::gmsh_22(Encoding::text);
-  expect_parts(error_in(write("a.vtk", "# vtk")), {"a.vtk: ", "extension", known});
-  expect_parts(error_in(write("a.ugrid", "1 2 3")), {"extension", known});
-  expect_parts(error_in(write("a.msh", "")), {"does not begin with $MeshFormat", known});
-  expect_parts(error_in(write("b.msh", "(0 \"Fluent\")")), {"does not begin with $MeshFormat", known});
+  expect_parts(error_in(write("a.grid", "1 2 3")), {"a.grid: ", "extension", known});
+  expect_parts(error_in(write("a.msh", "")), {"does not begin with a section", known});
+  expect_parts(error_in(write("b.msh", "mesh of two cells")), {"does not begin with a section", known});
+  expect_parts(error_in(write("a.ugrid", test::ugrid(Encoding::big_endian))), {"is binary", ".b8.ugrid"});
   expect_parts(error_in(write("a.su2", gmsh)), {"is a Gmsh file", known});
   expect_parts(error_in(write("a.b8.ugrid", gmsh)), {"is a Gmsh file", known});
   expect_parts(error_in(write("b.su2", test::ugrid(Encoding::big_endian))), {"is binary", known});
+}
+
+TEST_F(MeshReader, NamesWhatOtherProgramsWrite) {
+  const std::string pointer = "version https://git-lfs.github.com/spec/v1\noid sha256:4d7a\nsize 12345\n";
+  for (const char* name : {"a.msh", "a.su2", "a.b8.ugrid", "a.ugrid"})
+    expect_parts(error_in(write(name, pointer)), {"Git LFS pointer", "git lfs pull"});
+  expect_parts(error_in(write("b.msh", "(0 \"GAMBIT to Fluent File\")\n(2 3)\n")), {"Fluent", "CGNS"});
+  expect_parts(error_in(write("c.msh", "<!DOCTYPE html>\n<html>")), {"web page"});
+  expect_parts(error_in(write("d.msh", "PK\x03\x04")), {"zip archive"});
+  expect_parts(error_in(write("wing.unv", "")), {"I-deas", "gmsh FILE -save"});
+  expect_parts(error_in(write("wing.stl", "")), {"a surface without a volume"});
+  expect_parts(error_in(write("wing.geo", "")), {"description of a geometry", "gmsh -3"});
+  expect_parts(error_in(write("wing.cgns", "")), {"alphadot-cgns2su2"});
+  std::filesystem::create_directories(folder_ / "case/constant/polyMesh");
+  std::ofstream(folder_ / "case/constant/polyMesh/owner") << "FoamFile\n";
+  for (const char* name : {"case", "case/constant", "case/constant/polyMesh"})
+    expect_parts(error_in(folder_ / name), {"OpenFOAM", "polyhedra cannot be used"});
+}
+
+std::string compressed(const std::string& content) {
+  std::string out(2 * content.size() + 100, '\0');
+  z_stream stream{};
+  if (deflateInit2(&stream, 9, Z_DEFLATED, 16 + MAX_WBITS, 8, Z_DEFAULT_STRATEGY) != Z_OK) ADD_FAILURE();
+  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(content.data()));
+  stream.avail_in = static_cast<uInt>(content.size());
+  stream.next_out = reinterpret_cast<Bytef*>(out.data());
+  stream.avail_out = static_cast<uInt>(out.size());
+  if (deflate(&stream, Z_FINISH) != Z_STREAM_END) ADD_FAILURE();
+  out.resize(stream.total_out);
+  deflateEnd(&stream);
+  return out;
+}
+
+TEST_F(MeshReader, ReadsCompressedFilesAndCapitals) {
+  const std::string gmsh = test::gmsh_22(Encoding::text);
+  for (const auto& [name, content] :
+       {std::pair{"a.msh.gz", compressed(gmsh)}, std::pair{"a.msh", compressed(gmsh)},
+        std::pair{"A.MSH", gmsh},
+        std::pair{"b.Msh.GZ", compressed(gmsh.substr(0, 200)) + compressed(gmsh.substr(200))}})
+    test::expect_two_cells(read_mesh(write(name, content)), "wall", "far field");
+  test::expect_two_cells(read_mesh(write("a.SU2", test::su2())), "wall", "far_field");
+  write("c.mapbc", "2\n1 4000 the body\n2 5000 outer\n");
+  for (const auto& [name, content] :
+       {std::pair{"c.B8.UGRID", test::ugrid(Encoding::big_endian)},
+        std::pair{"c.lb8.ugrid.gz", compressed(test::ugrid(Encoding::little_endian))},
+        std::pair{"c.ugrid", test::ugrid(Encoding::text)}})
+    test::expect_two_cells(read_mesh(write(name, content)), "the body", "outer");
+
+  const std::string whole = compressed(gmsh);
+  for (std::size_t size = 3; size < whole.size(); size += 7)
+    expect_parts(error_in(write("cut.msh.gz", whole.substr(0, size))),
+                 {"cannot be decompressed", "ends too early"});
+  std::string damaged = whole;
+  damaged[whole.size() / 2] ^= 0x10;
+  expect_parts(error_in(write("cut.msh.gz", damaged)), {"cannot be decompressed"});
+  expect_parts(error_in(write("bomb.msh.gz", compressed(std::string(8 << 20, ' ')))), {"100 times its size"});
 }
 
 TEST_F(MeshReader, TellsWhyAFileCannotBeRead) {
@@ -68,7 +125,7 @@ TEST_F(MeshReader, TellsWhyAFileCannotBeRead) {
 /// Expects the unit cube that other programs wrote: 24 cells, 4 triangles on x = 0 and 20 elsewhere.
 void expect_cube(const std::string& name, const std::string& inlet, const std::string& wall) {
   SCOPED_TRACE(name);
-  const Mesh mesh = read_mesh(sample(name));
+  const MeshOfFile mesh = read_mesh(sample(name));
   EXPECT_NO_THROW(mesh.validate());
   EXPECT_EQ(mesh.points.size(), 14u);
   ASSERT_EQ(mesh.cells.size(), 24u);
@@ -96,13 +153,37 @@ TEST(MeshSamples, CubesOfOtherPrograms) {
   expect_cube("cube.lb8.ugrid", "patch_1", "patch_2");
 }
 
-TEST(MeshSamples, WhatGmshWritesButTheSolverCannotTake) {
-  expect_parts(error_in(sample("hexahedron.msh")), {"1 hexahedra, 6 quadrangles"});
-  expect_parts(error_in(sample("second_order.msh")),
-               {"24 second-order tetrahedra, 24 second-order triangles"});
-  expect_parts(error_in(sample("unnamed.msh")), {"surface 1 belong to no named physical group"});
-  expect_parts(error_in(sample("partitioned.msh")), {"save the mesh without partitions"});
-  expect_parts(error_in(sample("no_volume.msh")), {"no tetrahedra", "Physical Volume"});
+TEST(MeshSamples, WhatOnlyAPartOfIsUsed) {
+  for (const char* name : {"partitioned.msh", "partitioned_ghosts_41.msh", "partitioned_ghosts_40.msh",
+                           "partitioned_ghosts_22.msh", "cube_40_ascii.msh", "second_order.msh"})
+    expect_cube(name, "inlet side", "wall");
+  expect_cube("cube_1.msh", "group_1", "group_2");
+  const MeshOfFile curved = read_mesh(sample("second_order.msh"));
+  ASSERT_EQ(curved.notes.size(), 1u);
+  expect_parts(curved.notes[0], {"24 volume elements of higher order", "curvature", "lost"});
+}
+
+TEST(MeshSamples, HexahedronAndSurfacesWithoutGroups) {
+  const MeshOfFile hexahedron = read_mesh(sample("hexahedron.msh"));
+  EXPECT_NO_THROW(hexahedron.validate());
+  EXPECT_EQ(hexahedron.points.size(), 8u);
+  EXPECT_EQ(hexahedron.cells.size(), 6u);
+  ASSERT_EQ(hexahedron.patches.size(), 2u);
+  EXPECT_EQ(hexahedron.patches[0].triangles.size(), 2u);
+  EXPECT_EQ(hexahedron.patches[1].triangles.size(), 10u);
+  ASSERT_EQ(hexahedron.notes.size(), 2u);
+  expect_parts(hexahedron.notes[0],
+               {"1 hexahedra cut into 6 tetrahedra", "1 at least and 1 in the mean before"});
+  expect_parts(hexahedron.notes[1], {"6 boundary quadrilaterals cut into 12 triangles"});
+
+  const MeshOfFile unnamed = read_mesh(sample("unnamed.msh"));
+  EXPECT_NO_THROW(unnamed.validate());
+  ASSERT_EQ(unnamed.patches.size(), 6u);
+  for (int i = 0; i < 6; ++i)
+    EXPECT_EQ(unnamed.patches[static_cast<std::size_t>(i)].name, "surface_" + std::to_string(i + 1));
+  expect_parts(error_in(sample("no_volume.msh")),
+               {"no volume elements", "surface of a body", "Physical Volume"});
+  expect_parts(error_in(sample("plane.msh")), {"the mesh is two-dimensional", "extrude"});
 }
 
 }  // namespace

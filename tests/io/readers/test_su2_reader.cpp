@@ -24,7 +24,7 @@ std::string cut(std::string& content, const std::string& first, const std::strin
 }
 
 TEST(Su2Reader, ReadsMarkersAsPatches) {
-  const Mesh mesh = read_su2(su2(), "a/mesh.su2");
+  const MeshOfFile mesh = read_su2(su2(), "a/mesh.su2");
   test::expect_two_cells(mesh, "wall", "far_field");
   EXPECT_EQ(mesh.file, "a/mesh.su2");
 }
@@ -63,17 +63,41 @@ TEST(Su2Reader, KeepsMarkersWithoutElements) {
   EXPECT_EQ(mesh.patches[2].name, "hub");
 }
 
+TEST(Su2Reader, TakesWhatOtherProgramsWrite) {
+  test::expect_two_cells(read_su2("\xef\xbb\xbf" + su2(), "mesh.su2"), "wall", "far_field");
+  for (const char* one : {"1.0D+00", "1.d0", "10.0D-1", "+1.0D+00", "0.1E+01"})
+    test::expect_two_cells(read_su2(with(su2(), "1 1 1 4", one + std::string(" 1 1 4")), "mesh.su2"), "wall",
+                           "far_field");
+  for (const char* name : {"far field", "\"far field\"", "'far field'  ", "far field % rest\r"})
+    test::expect_two_cells(read_su2(with(su2(), "far_field", name), "mesh.su2"), "wall", "far field");
+  std::string halo = with(su2(), "NMARK= 2", "NMARK= 4");
+  for (const int to : {2, -2})
+    halo += "MARKER_TAG= SEND_RECEIVE\nMARKER_ELEMS= 2\nSEND_TO= " + std::to_string(to) + "\n1 3 0\n1 4 0\n";
+  const MeshOfFile mesh = read_su2(halo, "mesh.su2");
+  test::expect_two_cells(mesh, "wall", "far_field");
+  ASSERT_EQ(mesh.notes.size(), 1u);
+  expect_parts(mesh.notes[0], {"2 markers SEND_RECEIVE"});
+}
+
+TEST(Su2Errors, Numbers) {
+  for (const char* number : {"1.0D", "1.0D+", "1.0Dx", "D+00", "1.0D+00x", "1.0Q+00"})
+    expect_parts(error_in(with(su2(), "1 1 1 4", number + std::string(" 1 1 4"))),
+                 {"mesh.su2:11: x of a point"});
+}
+
 TEST(Su2Errors, OtherMeshes) {
   expect_parts(error_in(""), {"mesh.su2:1: there is no NPOIN"});
-  expect_parts(error_in(with(su2(), "NDIME= 3", "NDIME= 2")), {"mesh.su2:2: ", "not three-dimensional"});
+  expect_parts(error_in(with(su2(), "NDIME= 3", "NDIME= 2")),
+               {"mesh.su2:2: ", "the mesh is two-dimensional", "extrude"});
+  expect_parts(error_in(with(su2(), "NDIME= 3", "NDIME= 4")), {"mesh.su2:2: ", "not three-dimensional"});
   expect_parts(error_in(with(su2(), "NDIME= 3\n", "")), {"no NDIME= 3"});
   expect_parts(error_in("NZONE= 2\n" + su2()), {"mesh.su2:1: ", "several zones"});
-  expect_parts(error_in(with(su2(), "10 0 1 2 3 0", "12 0 1 2 3 0 1 2 3")), {"1 hexahedra"});
-  expect_parts(error_in(with(su2(), "5 0 1 2\n", "9 0 1 2 3\n")), {"1 quadrilaterals"});
-  expect_parts(error_in(with(su2(), "5 0 1 2\n", "1 0\n")), {"mesh.su2:15: ", "SU2's type 1"});
+  expect_parts(error_in(with(su2(), "10 0 1 2 3 0", "5 0 1 2")), {"mesh.su2:4: ", "SU2's type 5", "(10)"});
+  expect_parts(error_in(with(su2(), "5 0 1 2\n", "10 0 1 2 3\n")), {"mesh.su2:15: ", "SU2's type 10", "(9)"});
+  expect_parts(error_in(with(su2(), "5 0 1 2\n", "1 0\n")), {"mesh.su2:15: ", "SU2's type 1 "});
   std::string no_cells = su2();
   cut(no_cells, "NELEM", "NPOIN");
-  expect_parts(error_in(no_cells), {"no tetrahedra", "NELEM"});
+  expect_parts(error_in(no_cells), {"no volume elements", "NELEM"});
 }
 
 TEST(Su2Errors, Structure) {

@@ -31,6 +31,12 @@ def add_group(dimension, entities, name):
     gmsh.model.setPhysicalName(dimension, group, name)
 
 
+def remove_groups():
+    gmsh.model.removePhysicalGroups()
+    for name in "inlet side", "wall", "fluid", "skin":
+        gmsh.model.removePhysicalName(name)
+
+
 def add_groups():
     surfaces = [tag for _, tag in gmsh.model.getEntities(2)]
     add_group(2, surfaces[:1], "inlet side")
@@ -46,6 +52,8 @@ def write_with_gmsh():
         for binary in False, True:
             stem = f"cube_{str(version).replace('.', '')}_{'binary' if binary else 'ascii'}"
             write(stem + ".msh", version, binary)
+    write("cube_40_ascii.msh", 4.0)  # Gmsh 4.8 writes no other 4.0
+    write("cube_1.msh", 1.0)
     gmsh.write("cube.su2")
     set_options(SaveParametric=1)
     write("parametric_ascii.msh", 4.1)
@@ -54,16 +62,20 @@ def write_with_gmsh():
 
     set_options(SaveAll=1)
     write("all_saved.msh", 4.1)  # also points and lines, all of them in no group
-    gmsh.model.removePhysicalGroups()
+    remove_groups()
     write("unnamed.msh", 4.1)
     set_options(SaveAll=0)
     add_group(2, [tag for _, tag in gmsh.model.getEntities(2)], "skin")
     write("no_volume.msh", 4.1)
-    gmsh.model.removePhysicalGroups()
+    remove_groups()
 
     add_groups()
     gmsh.model.mesh.partition(2)
     write("partitioned.msh", 4.1)
+    set_options(PartitionCreateGhostCells=1)
+    gmsh.model.mesh.partition(2)
+    for version in 2.2, 4.0, 4.1:
+        write(f"partitioned_ghosts_{str(version).replace('.', '')}.msh", version)
     gmsh.model.mesh.unpartition()
 
     gmsh.model.mesh.setOrder(2)
@@ -83,6 +95,13 @@ def write_with_gmsh():
         gmsh.model.mesh.setRecombine(2, tag)
     gmsh.model.mesh.generate(3)
     write("hexahedron.msh", 4.1, binary=True)
+
+
+    gmsh.clear()
+    gmsh.model.occ.addRectangle(0, 0, 0, 1, 1)
+    gmsh.model.occ.synchronize()
+    gmsh.model.mesh.generate(2)
+    write("plane.msh", 4.1)
 
 
 def write_with_meshio():
