@@ -148,34 +148,6 @@ TEST(Indicial, TailBelowTheBoundsIsNotExtrapolated) {
   EXPECT_EQ(fit_step(t, y, std::vector<Real>(t.size(), 1e-2)).tail, 0);
 }
 
-// What the limiter leaves of a response that is over wanders: seeds whose three last means happen to look
-// like an exponential must not be extrapolated. Noise of 1e-3, as seen; the response ended at t* = 10 of 60.
-TEST(Indicial, TailThatIsOverIsNotExtrapolated) {
-  const auto t = test::times(60, 0.1);
-  const Real end = 2, deficit = 10;
-  test::Coverage covered;
-  int extrapolated = 0;
-  for (unsigned seed = 1; seed <= 200; ++seed) {
-    auto y = test::sampled(t, [](Real x) { return x < 10 ? x / 5 : 2; });
-    test::add_noise(y, 1e-3, 0.9, seed);
-    const StepFit fit = fit_step(t, y);
-    extrapolated += fit.tail != 0 ? 1 : 0;
-    covered.add(fit.deficit, deficit);
-    EXPECT_NEAR(fit.final.value, end, 3e-3);
-  }
-  EXPECT_LE(extrapolated, 10) << "six means all go one way twice in 2^5";
-  EXPECT_GE(covered.share(), 0.95);
-}
-
-// Changes within the bounds of the inner iterations are no tail either.
-TEST(Indicial, TailBelowTheBoundsIsNotExtrapolated) {
-  const auto t = test::times(20, 0.1);
-  const auto y = test::sampled(t, [](Real x) { return 2 - std::exp(-x / 3); });
-  EXPECT_NE(fit_step(t, y).tail, 0);
-  EXPECT_NE(fit_step(t, y, std::vector<Real>(t.size(), 1e-5)).tail, 0);
-  EXPECT_EQ(fit_step(t, y, std::vector<Real>(t.size(), 1e-2)).tail, 0);
-}
-
 // A step of q* = 0.02 from loads of 0.5 to 0.5 + 0.02 * 7: X_q = 7; alphadot does not take part.
 TEST(Indicial, StepInPitchRate) {
   ForceHistory history;
