@@ -22,8 +22,9 @@ constexpr int most_rejections = 6;
 constexpr int stalled_iterations = 20;
 constexpr Real stalled_orders = 1, little_progress = 0.5;
 /// A march that has not lowered its residual for as many iterations as it took to reach it, and for so many,
-/// is at its end.
+/// is at its end. Smaller steps than those of this CFL number get as many more of them.
 constexpr int patience = 150;
+constexpr Real bold_cfl = 20;
 
 /// Size of a density residual that is nothing but round-off: the mass flux through a mean face in double
 /// precision.
@@ -92,7 +93,10 @@ SteadyResult march_to_steady(ImplicitIteration& iteration, const Conditions<Real
     const bool stalled = count - lowest_at >= stalled_iterations && orders() >= stalled_orders;
     return freeze_orders > 0 && rescue == 0 && (orders() >= freeze_orders || stalled);
   };
-  const auto has_stalled = [&] { return count - lowest_at >= std::max(patience, lowest_at); };
+  const auto has_stalled = [&] {
+    const int allowed = static_cast<int>(std::min(patience * std::max(Real{1}, bold_cfl / cfl), 1e9));
+    return count - lowest_at >= std::max(allowed, lowest_at);
+  };
   const auto ended = [&](RunStatus status) {
     const Real reached = orders();
     Real reached_free = reached;
