@@ -82,7 +82,7 @@ class Stops(CaseInFolder):
         os.kill(live.process.pid, signal.SIGTERM)
         self.assertNotEqual(live.wait(), 0)
         self.assertEqual(result(self.part)["status"], "interrupted")
-        done = run(self.folder, self.part, "--restart", ranks=2)
+        done = run(self.folder, self.part, *settings(steady_max_iterations=1000000), "--restart", ranks=2)
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual(result(self.part)["status"], "completed")
 
