@@ -18,26 +18,18 @@
 #include "app/coarser_meshes.hpp"
 #include "app/flow_case.hpp"
 #include "app/linear_derivatives.hpp"
-#include "app/loads.hpp"
+#include "app/steady_restart.hpp"
 #include "app/stop.hpp"
 #include "core/error.hpp"
 #include "core/log.hpp"
 #include "core/timer.hpp"
+#include "derivatives/loads.hpp"
 #include "io/case_words.hpp"
 #include "io/files.hpp"
 
 namespace alphadot {
 
 namespace {
-
-/// Derivatives are about a steady state, which a checkpoint made in a motion no longer has.
-void check_restart(const FlowCase& flow) {
-  const auto* restart = flow.checkpoints().restart();
-  if (restart && restart->phase == "motion")
-    throw InputError(
-        flow.folder(), 0, "the checkpoint to go on from was made in a motion",
-        "name that of the steady state with --restart FILE, or begin in another folder with --out DIR");
-}
 
 /// Stability axes mix rolling and yawing.
 std::set<Variable> on_stability_axes(std::set<Variable> unconverged) {
@@ -213,10 +205,10 @@ std::optional<std::vector<MeshDerivatives>> complete_coarser(FlowCase& finest,
 RunStatus derivatives_verb(const CaseArguments& arguments, const Communicator& comm) {
   const SignalListener signals;
   FlowCase flow(arguments, comm);
-  check_restart(flow);
+  check_steady_restart(flow);
   flow.announce();
   auto levels = coarser_cases(arguments, flow);
-  for (const auto& level : levels) check_restart(*level);
+  for (const auto& level : levels) check_steady_restart(*level);
   const std::size_t meshes = levels.size() + 1;
 
   const Timer timer;

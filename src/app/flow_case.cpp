@@ -12,13 +12,13 @@
 #include <utility>
 
 #include "app/configuration_view.hpp"
-#include "app/loads.hpp"
 #include "app/motion_setup.hpp"
 #include "app/pictures.hpp"
 #include "app/watchdog.hpp"
 #include "core/error.hpp"
 #include "core/log.hpp"
 #include "core/memory.hpp"
+#include "derivatives/loads.hpp"
 #include "io/case_file.hpp"
 #include "io/files.hpp"
 #include "linear/block_lu_sgs.hpp"

@@ -11,45 +11,17 @@
 #include <string>
 #include <utility>
 
-#include "app/loads.hpp"
 #include "app/responses.hpp"
 #include "app/watchdog.hpp"
 #include "core/log.hpp"
+#include "derivatives/flight_variables.hpp"
+#include "derivatives/loads.hpp"
 #include "derivatives/sensitivity.hpp"
 #include "derivatives/steady_error.hpp"
 
 namespace alphadot {
 
 namespace {
-
-/// Change of wind and grid motion per unit of a flight variable: rad for angles, rad per unit time for rates.
-/// The body moves across the wind, which itself stays: with alpha the body sinks at V dalpha, normal to the
-/// flight path.
-ConditionsChange change_of(Variable variable, const FreestreamSettings& stream) {
-  const Real a = stream.alpha * radians_per_degree, b = stream.beta * radians_per_degree;
-  const Real speed = stream.mach;
-  switch (variable) {
-    case Variable::alpha:
-      return {{}, -speed * std::cos(b) * Vec3{-std::sin(a), 0, std::cos(a)}, {}};
-    case Variable::beta:
-      return {{}, speed * Vec3{std::cos(a) * std::sin(b), std::cos(b), std::sin(a) * std::sin(b)}, {}};
-    case Variable::p:
-      return {{}, {}, {-1, 0, 0}};
-    case Variable::q:
-      return {{}, {}, {0, 1, 0}};
-    case Variable::r:
-      return {{}, {}, {0, 0, -1}};
-    default:
-      return {};
-  }
-}
-
-/// The power of time in a variable's unit.
-int time_derivatives(Variable variable) {
-  using enum Variable;
-  if (variable == alpha || variable == beta) return 0;
-  return variable == alphaddot || variable == betaddot ? 2 : 1;
-}
 
 /// What a variable is the rate of.
 std::optional<Variable> rate_of(Variable variable) {
@@ -98,10 +70,9 @@ std::vector<std::vector<Variable>> groups_of(const Case& settings) {
 }
 
 CoefficientsOf<Estimate> column_of(Variable variable, const Sensitivity& solution, const Case& settings) {
-  const Real rate_scale =
-      std::pow(2 * settings.freestream.mach / settings.reference.length, time_derivatives(variable));
-  const auto values = coefficients(rate_scale * solution.total, settings);
-  const auto errors = coefficients(rate_scale * solution.total_error, settings);
+  const Real scale = rate_scale(variable, settings);
+  const auto values = coefficients(scale * solution.total, settings);
+  const auto errors = coefficients(scale * solution.total_error, settings);
   CoefficientsOf<Estimate> out;
   for (int i = 0; i < Coefficients::size(); ++i) out[i] = {values[i], std::abs(errors[i])};
   return out;

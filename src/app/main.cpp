@@ -10,6 +10,7 @@
 #include <limits>
 #include <map>
 
+#include "app/adjoint.hpp"
 #include "app/verbs.hpp"
 #include "core/error.hpp"
 #include "core/log.hpp"
@@ -78,6 +79,17 @@ int main(int argc, char** argv) {
   add_case_arguments(derivatives, arguments);
   const auto* derivatives_restart = add_run_arguments(derivatives, arguments);
 
+  std::vector<std::string> loads;
+  auto& adjoint = *app.add_subcommand(
+      "adjoint", "What loads are sensitive to: one linear solve a load, for all flight variables at once");
+  add_case_arguments(adjoint, arguments);
+  adjoint
+      .add_option("--of", loads,
+                  "Loads, e.g. Cm,CN,Cm_alphadot or CN@fin_1+fin_2 of some walls (default: all coefficients)")
+      ->type_name("LOADS")
+      ->delimiter(',');
+  const auto* adjoint_restart = add_run_arguments(adjoint, arguments);
+
   auto& check = *app.add_subcommand("check", "Check case and mesh without running");
   add_case_arguments(check, arguments);
   bool whole_case = false;
@@ -123,13 +135,14 @@ int main(int argc, char** argv) {
     if (comm.is_root()) code = app.exit(error);
     return code == 0 ? 0 : 2;
   }
-  for (const auto* restart : {run_restart, derivatives_restart})
+  for (const auto* restart : {run_restart, derivatives_restart, adjoint_restart})
     if (*restart) arguments.restart = restart->results().empty() ? "" : restart->results().front();
   set_up_log(comm.is_root(), quiet);
 
   return guarded(comm, [&] {
     if (run) return run_verb(arguments, comm);
     if (derivatives) return derivatives_verb(arguments, comm);
+    if (adjoint) return adjoint_verb(arguments, loads, comm);
     if (check) return check_verb(arguments, whole_case, comm);
     if (partition) return partition_verb(cut, comm);
     if (derive) return derive_verb(file, center, comm);

@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "app/extraction.hpp"
-#include "app/loads.hpp"
 #include "core/log.hpp"
+#include "derivatives/loads.hpp"
 
 namespace alphadot {
 

@@ -43,6 +43,8 @@ Sensitivity response_of(Variable variable, const std::vector<Real>& numbers, std
   return out;
 }
 
+}  // namespace
+
 bool is_of_this_flow(const CheckpointHead& head, const FlowCase& flow) {
   const auto now = flow.steady_head("");
   for (const char* entry : {"iteration", "cfl", "residuals"})
@@ -52,8 +54,6 @@ bool is_of_this_flow(const CheckpointHead& head, const FlowCase& flow) {
   };
   return tolerances(flow.checkpoints().case_before().derivatives) == tolerances(flow.settings().derivatives);
 }
-
-}  // namespace
 
 Responses::Responses(FlowCase& flow) : flow_(flow) {
   const auto* restart = flow.checkpoints().restart();

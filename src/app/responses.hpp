@@ -17,6 +17,10 @@ struct ResponseKey {
   auto operator<=>(const ResponseKey&) const = default;
 };
 
+/// Whether a checkpoint holds linear solutions about the flow that `flow` has marched to, under the same
+/// [derivatives].
+bool is_of_this_flow(const CheckpointHead& head, const FlowCase& flow);
+
 class Responses {
  public:
   /// Begins with those of the checkpoint that the run goes on from, when they are responses of the flow that

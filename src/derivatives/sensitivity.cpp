@@ -4,8 +4,10 @@
 #include <cmath>
 #include <optional>
 
-#include "core/dual.hpp"
 #include "core/error.hpp"
+#include "derivatives/free_linearisation.hpp"
+#include "derivatives/preconditioner.hpp"
+#include "euler/state_change.hpp"
 #include "linear/cell_scaling.hpp"
 #include "linear/krylov_basis.hpp"
 
@@ -15,27 +17,14 @@ namespace {
 
 using States = std::vector<Primitive<Real>>;
 
-/// CFL numbers of the preconditioner's time term: none to speak of, and what damps it where its passes over
-/// the plain Jacobian would grow in some cells.
-constexpr std::array linear_cfl{1e8, 1e3, 1e2, 1e1, 1.0};
-/// A system whose defect so many iterations have not brought below this share of itself stalls.
-constexpr std::size_t stalled_iterations = 10;
-constexpr Real stalled_share = 0.7;
-
 /// Adds V (dU/dW) w to `image`: the change of the conserved state that goes with a change w of the primitive
 /// one.
 void add_mass_term(const ImplicitIteration& iteration, std::span<const Primitive<Real>> change,
                    std::span<Conserved<Real>> image) {
   const Subdomain& domain = iteration.discretization().domain();
-  for (Index cell = 0; cell < domain.owned_cells; ++cell) {
-    Primitive<Dual<1>> w;
-    for (int i = 0; i < 5; ++i) {
-      w[i] = iteration.flow()[cell][i];
-      w[i].d[0] = change[static_cast<std::size_t>(cell)][i];
-    }
-    const auto u = conserved(w, iteration.discretization().gamma());
-    for (int i = 0; i < 5; ++i) image[static_cast<std::size_t>(cell)][i] += domain.volume[cell] * u[i].d[0];
-  }
+  for (std::size_t cell = 0; cell < image.size(); ++cell)
+    image[cell] += domain.volume[cell] * conserved_change(iteration.flow()[static_cast<Index>(cell)],
+                                                          change[cell], iteration.discretization().gamma());
 }
 
 Load magnitude(const Load& load) {
@@ -52,10 +41,7 @@ struct Record {
   std::vector<std::vector<Real>> loads;
   std::vector<Real> norms;
   Real drop() const { return norms.back() / std::max(norms.front(), Real{1e-300}); }
-  bool has_stalled() const {
-    return norms.size() > stalled_iterations &&
-           !(norms.back() < stalled_share * norms[norms.size() - 1 - stalled_iterations]);
-  }
+  bool has_stalled() const { return Preconditioner::has_stalled(norms); }
   void drop_latest() {
     loads.pop_back();
     norms.pop_back();
@@ -88,30 +74,6 @@ Load remaining_error(const Record& record, const std::vector<Load>& totals) {
   }
   return out;
 }
-
-/// The implicit scheme as the preconditioner of the linear solves, as bold as the flow lets it be.
-class Preconditioner {
- public:
-  Preconditioner(ImplicitIteration& iteration, const Conditions<Real>& conditions)
-      : iteration_(iteration), conditions_(conditions) {
-    linearise(0);
-  }
-  bool can_be_damped() const { return level_ + 1 < linear_cfl.size(); }
-  /// Gives it more of a time term.
-  void damp() { linearise(level_ + 1); }
-  void solve(std::span<const LinearSystem> systems) { scheme().solve(systems); }
-
- private:
-  LinearSolver& scheme() { return iteration_.linear_solver().preconditioner(); }
-  void linearise(std::size_t level) {
-    level_ = level;
-    scheme().linearise(iteration_.flow(), conditions_, {.cfl = linear_cfl[level]});
-  }
-
-  ImplicitIteration& iteration_;
-  const Conditions<Real>& conditions_;
-  std::size_t level_ = 0;
-};
 
 /// N problems solved together: every application of the tangent serves all of them.
 template <int N>
@@ -266,8 +228,8 @@ class BlockGmres {
         }
         ++used, ++at_level;
         if (is_stopped()) return;
-        stalls = at_level >= static_cast<int>(stalled_iterations) && preconditioner_.can_be_damped() &&
-                 std::ranges::any_of(records_, &Record::has_stalled);
+        stalls = at_level >= static_cast<int>(Preconditioner::stalled_iterations) &&
+                 preconditioner_.can_be_damped() && std::ranges::any_of(records_, &Record::has_stalled);
       }
       for (std::size_t k = 0; k < N; ++k) space_.move(results_[k].field, searches[k].shares);
       if (stalls) {
@@ -321,19 +283,6 @@ class BlockGmres {
   std::array<States, N> images_, corrections_, defects_;
 };
 
-/// About the flow with its limiter free, as it is in a motion.
-Linearisation linearisation_of(ImplicitIteration& iteration, const Conditions<Real>& conditions) {
-  const Discretization& discretization = iteration.discretization();
-  Reconstruction<Real> reconstruction(discretization, iteration.communicator());
-  if (discretization.space().order > 1) {
-    iteration.flow().start_exchange();
-    reconstruction.update(iteration.flow());
-    reconstruction.start_exchange();
-    reconstruction.finish_exchange();
-  }
-  return {discretization, iteration.communicator(), iteration.flow(), reconstruction, conditions};
-}
-
 /// False when it was stopped.
 template <int N>
 bool solve_group(ImplicitIteration& iteration, const Linearisation& linearisation,
@@ -350,7 +299,7 @@ bool solve_group(ImplicitIteration& iteration, const Linearisation& linearisatio
 SensitivitySolver::SensitivitySolver(ImplicitIteration& iteration, const Conditions<Real>& conditions,
                                      const DerivativeSettings& settings, std::function<bool()> go_on)
     : iteration_(iteration),
-      linearisation_(linearisation_of(iteration, conditions)),
+      linearisation_(linearise_with_free_limiter(iteration, conditions)),
       settings_(settings),
       go_on_(std::move(go_on)) {}
 

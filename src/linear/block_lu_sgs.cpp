@@ -35,6 +35,12 @@ void BlockLuSgs::linearise(const FlowField<Real>& flow, const Conditions<Real>& 
                            const TimeTerms& time) {
   assemble_jacobian(discretization_, flow, conditions, time, matrix_);
   matrix_.scale_rows();
+  is_transposed_ = false;
+}
+
+void BlockLuSgs::transpose() {
+  matrix_.transpose(discretization_.domain(), comm_);
+  is_transposed_ = !is_transposed_;
 }
 
 template <int N>
@@ -62,8 +68,10 @@ void BlockLuSgs::sweep(Direction direction, Index begin, Index end) {
 }
 
 BlockLuSgs::Direction BlockLuSgs::direction(int pass) const {
-  const bool is_backward = order_ == PassOrder::alternating ? pass % 2 == 1 : pass == sweeps_;
-  return is_backward ? Direction::backward : Direction::forward;
+  // The transpose of a pass over rows i < j goes from j to i, and the last pass's comes first.
+  const int of_solve = is_transposed_ ? 2 * sweeps_ - 1 - pass : pass;
+  const bool is_backward = order_ == PassOrder::alternating ? of_solve % 2 == 1 : of_solve == sweeps_;
+  return is_backward != is_transposed_ ? Direction::backward : Direction::forward;
 }
 
 template <int N>
@@ -81,8 +89,11 @@ void BlockLuSgs::solve_together(std::span<const LinearSystem> systems) {
     for (std::size_t row = 0; row < systems_[k]->right.size(); ++row) {
       float minus_residual[5];
       for (int i = 0; i < 5; ++i) minus_residual[i] = -static_cast<float>(systems[k].residual[row][i]);
-      multiply_add(0, matrix_.inverse_diagonal(static_cast<Index>(row)), minus_residual)
-          .copy_to(systems_[k]->right[row].v, std::experimental::vector_aligned);
+      if (is_transposed_)
+        std::copy_n(minus_residual, 5, systems_[k]->right[row].v);
+      else
+        multiply_add(0, matrix_.inverse_diagonal(static_cast<Index>(row)), minus_residual)
+            .copy_to(systems_[k]->right[row].v, std::experimental::vector_aligned);
     }
   }
   const int passes = 2 * sweeps_;
@@ -101,9 +112,13 @@ void BlockLuSgs::solve_together(std::span<const LinearSystem> systems) {
     }
   }
   for (std::size_t k = 0; k < N; ++k)
-    for (std::size_t cell = 0; cell < systems_[k]->right.size(); ++cell)
-      for (int i = 0; i < 5; ++i)
-        systems[k].update[cell][i] = systems_[k]->update[static_cast<Index>(cell)].v[i];
+    for (std::size_t cell = 0; cell < systems_[k]->right.size(); ++cell) {
+      SweepState update = systems_[k]->update[static_cast<Index>(cell)];
+      if (is_transposed_)
+        multiply_add(0, matrix_.inverse_diagonal(static_cast<Index>(cell)), update.v)
+            .copy_to(update.v, std::experimental::vector_aligned);
+      for (int i = 0; i < 5; ++i) systems[k].update[cell][i] = update.v[i];
+    }
 }
 
 void BlockLuSgs::solve(std::span<const LinearSystem> systems) {

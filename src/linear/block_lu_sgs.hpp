@@ -37,6 +37,10 @@ class BlockLuSgs final : public LinearSolver {
   void linearise(const FlowField<Real>& flow, const Conditions<Real>& conditions,
                  const TimeTerms& time) override;
   void solve(std::span<const LinearSystem> systems) override;
+  /// From now on solve() is the exact transpose of what it was, residual and update having changed places,
+  /// until the next transpose() or linearise(): the same passes over the transposed matrix, in the opposite
+  /// order and direction. Where they go downstream, those of the transpose go upstream. Collective.
+  void transpose();
   std::size_t bytes() const override;
   HaloTraffic halo_traffic() const override;
 
@@ -49,7 +53,9 @@ class BlockLuSgs final : public LinearSolver {
   template <int N>
   void solve_together(std::span<const LinearSystem> systems);
 
-  /// One right-hand side: minus the residual times the inverse diagonal, [owned_cells], and its solution.
+  /// One right-hand side: minus the residual times the inverse diagonal, [owned_cells], and its solution. Of
+  /// the transpose, whose blocks are scaled by columns: minus the residual, and the solution times the
+  /// diagonal.
   struct System {
     System(const Subdomain& domain, const Communicator& comm);
     std::vector<SweepState> right;
@@ -60,6 +66,7 @@ class BlockLuSgs final : public LinearSolver {
   const Communicator& comm_;
   int sweeps_;
   PassOrder order_;
+  bool is_transposed_ = false;
   BlockMatrix matrix_;
   std::vector<std::unique_ptr<System>> systems_;  // as many as were ever solved together
 };

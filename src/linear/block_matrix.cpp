@@ -2,6 +2,9 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <utility>
+
+#include "space/flow_field.hpp"
 
 namespace alphadot {
 
@@ -32,6 +35,49 @@ void BlockMatrix::scale_rows() {
             .copy_to(&scaled[5 * column], std::experimental::element_aligned);
       std::copy_n(scaled.begin(), 25, block.begin());
     }
+}
+
+namespace {
+
+Block transposed(const Block& a) {
+  Block out;
+  for (std::size_t column = 0; column < 5; ++column)
+    for (std::size_t row = 0; row < 5; ++row) out[5 * row + column] = a[5 * column + row];
+  return out;
+}
+
+}  // namespace
+
+void BlockMatrix::transpose(const Subdomain& domain, const Communicator& comm) {
+  for (Block& block : inverse_diagonal_) block = transposed(block);
+  transpose_cut_faces(domain, comm);
+  for (Index face = 0; face < domain.cut_face_begin; ++face) {
+    const Block right = transposed(right_of(face));
+    right_of(face) = transposed(left_of(face));
+    left_of(face) = right;
+  }
+}
+
+void BlockMatrix::transpose_cut_faces(const Subdomain& domain, const Communicator& comm) {
+  if (comm.size() == 1) return;
+  struct Row {
+    Blocks blocks;
+    std::array<GlobalIndex, neighbours> columns;  // ids
+  };
+  CellField<Row> rows(domain, comm, HaloWidth::faces);
+  for (Index cell = domain.interior_cells; cell < domain.owned_cells; ++cell) {
+    rows[cell].blocks = blocks(cell);
+    for (std::size_t j = 0; j < neighbours; ++j)
+      rows[cell].columns[j] = domain.cell_ids[static_cast<std::size_t>(columns(cell)[j])];
+  }
+  rows.exchange();
+  for (auto face = static_cast<std::size_t>(domain.cut_face_begin); face < domain.faces.size(); ++face) {
+    const auto [left, right] = domain.faces[face];
+    const Row& other = rows[right];
+    const auto slot = std::ranges::find(other.columns, domain.cell_ids[static_cast<std::size_t>(left)]) -
+                      other.columns.begin();
+    right_of(static_cast<Index>(face)) = transposed(other.blocks[static_cast<std::size_t>(slot)]);
+  }
 }
 
 std::size_t BlockMatrix::bytes() const {

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "core/communicator.hpp"
 #include "core/prefetch.hpp"
 #include "partition/subdomain.hpp"
 
@@ -56,6 +57,11 @@ class BlockMatrix {
   /// the row needs no further product.
   void scale_rows();
 
+  /// Makes it its own transpose, in place: row i then has (D_j^-1 O_ji)^T for its neighbour j, of a matrix
+  /// whose rows have been scaled, and the transpose of its own inverse diagonal block. Twice is not at all.
+  /// The blocks of neighbours on other ranks come from there. Collective.
+  void transpose(const Subdomain& domain, const Communicator& comm);
+
   std::size_t bytes() const;
 
  private:
@@ -66,6 +72,9 @@ class BlockMatrix {
   Block& at(Slot slot) {
     return blocks_[static_cast<std::size_t>(slot.row)][static_cast<std::size_t>(slot.neighbour)];
   }
+
+  /// Puts into the rows along cuts the transposes of what the rows on the other side hold for them.
+  void transpose_cut_faces(const Subdomain& domain, const Communicator& comm);
 
   std::vector<Columns> columns_;
   std::vector<Blocks> blocks_;              // one row more than there are

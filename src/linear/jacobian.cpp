@@ -5,6 +5,7 @@
 
 #include "euler/boundary.hpp"
 #include "euler/independent.hpp"
+#include "euler/state_change.hpp"
 #include "space/wave_speed.hpp"
 
 namespace alphadot {
@@ -34,15 +35,12 @@ void store_derivative(Block& block, const Conserved<T>& flux, int first, Real ar
 
 /// Adds scale * dU/dW.
 void add_time_term(Matrix& diagonal, const Primitive<Real>& w, Real scale, Real gamma) {
-  const Real q2 = w[1] * w[1] + w[2] * w[2] + w[3] * w[3];
-  diagonal[0] += scale;
-  for (int i = 1; i <= 3; ++i) {
-    diagonal[i] += scale * w[i];
-    diagonal[5 * i + i] += scale * w[0];
-    diagonal[5 * i + 4] += scale * w[0] * w[i];
+  for (int column = 0; column < 5; ++column) {
+    Primitive<Real> unit;
+    unit[column] = 1;
+    const auto change = conserved_change(w, unit, gamma);
+    for (int row = 0; row < 5; ++row) diagonal[5 * column + row] += scale * change[row];
   }
-  diagonal[4] += scale * 0.5 * q2;
-  diagonal[24] += scale / (gamma - 1);
 }
 
 [[gnu::flatten]] void face_terms(const Discretization& discretization, const FlowField<Real>& flow,

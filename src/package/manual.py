@@ -45,6 +45,9 @@ the flow, for ParaView 5.11 or later
 .I derivatives.csv, derivatives.st, derivatives.jsbsim.xml
 of the verb derivatives: for spreadsheets, readers of AVL's files and JSBSim
 .TP
+.I adjoint.csv, adjoint.vtkhdf, surface_sensitivity.csv, surface_sensitivity.vtkhdf
+of the verb adjoint: derivatives; which cells, and which places of the walls, each load listens to
+.TP
 .I checkpoint_NNNNNN.vtkhdf
 what \-\-restart goes on from
 .TP

@@ -27,6 +27,17 @@ inline FourReals barth_jespersen(const FourReals& delta, const FourReals& bound)
   return delta == 0 ? four(1) : minimum(bound / delta, four(1));
 }
 
+/// MLP looks at each corner and its own extrema; the others at the face opposite, a third of the offset
+/// beyond the centroid, and the extrema of all corners.
+constexpr bool is_at_corners(LimiterKind limiter) {
+  return limiter == LimiterKind::mlp_u2;
+}
+constexpr Real to_face = 1.0 / 3;
+/// Where a limiter looks from the centroid, in vectors from a corner to it.
+constexpr Real reach(LimiterKind limiter) {
+  return is_at_corners(limiter) ? -1.0 : to_face;
+}
+
 /// Share of a limited gradient that leaves every face of the cell half of the cell's density and pressure
 /// (the scaling of Zhang & Shu 2010). `lowest`: the smallest ratio of a face's value to the cell's. Without
 /// it a cell in a strong expansion can lose energy through one face for ever while others fall back, and runs

@@ -7,6 +7,7 @@
 
 #include "core/dual.hpp"
 #include "core/prefetch.hpp"
+#include "space/corner_slope.hpp"
 #include "space/limiter.hpp"
 
 namespace alphadot {
@@ -161,14 +162,7 @@ Gradient<T> Reconstruction<T>::green_gauss(Index cell) const {
     const PointSums& sums = points_[corners[corner]];
     const PointMoments& moments = discretization_.point_moments(corners[corner]);
     const Real inverse_weight = 1 / (moments.count + dot(moments.lambda, moments.first));
-    // Over a tetrahedron the surface integral of values linear on its faces is that of the linear
-    // interpolant, whose gradient is a sum over corners of value times the inward area of the opposite face
-    // over 3 V.
-    const Vec3& a = domain.points[corners[(corner + 1) % 4]];
-    const Vec3& b = domain.points[corners[(corner + 2) % 4]];
-    const Vec3& c = domain.points[corners[(corner + 3) % 4]];
-    const Vec3 area = cross(b - a, c - a);
-    const Vec3 slope = (1 / dot(domain.points[corners[corner]] - a, area)) * area;
+    const Vec3 slope = corner_slope(domain, cell, corner);
     for (int i = 0; i < 5; ++i) {
       const Four<T>& sum = sums.moments[i];
       const T value = inverse_weight * (sum[3] + moments.lambda.x * sum[0] + moments.lambda.y * sum[1] +
@@ -193,16 +187,6 @@ T limited_share(const T& delta, const T& bound, const E& epsilon2) {
 template <class T>
 T change_at(const Gradient<T>& gradient, const Vec3& offset, int i) {
   return offset.x * gradient.along[0][i] + offset.y * gradient.along[1][i] + offset.z * gradient.along[2][i];
-}
-
-/// MLP looks at each corner and its own extrema; the others at the face opposite, a third of the offset
-/// beyond the centroid, and the extrema of all corners.
-constexpr bool is_at_corners(LimiterKind limiter) {
-  return limiter == LimiterKind::mlp_u2;
-}
-constexpr Real to_face = 1.0 / 3;
-constexpr Real reach(LimiterKind limiter) {
-  return is_at_corners(limiter) ? -1.0 : to_face;
 }
 
 constexpr bool must_be_positive(int variable) {

@@ -199,7 +199,7 @@ class Commands(unittest.TestCase):
 
     def test_help_names_the_verbs(self) -> None:
         text = self.succeeded("--help")
-        for verb in ("run", "derivatives", "check", "derive", "info"):
+        for verb in ("run", "derivatives", "adjoint", "check", "derive", "info"):
             self.assertRegex(text, rf"\n  {verb} ")
 
     def test_version(self) -> None:

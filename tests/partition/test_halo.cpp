@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "parallel.hpp"
-#include "partition/halo.hpp"
+#include "partition/reverse_halo.hpp"
 
 namespace alphadot {
 namespace {
@@ -121,9 +121,34 @@ TEST_P(Halo, SendsAsManyBytesAsAllGhostsHold) {
   EXPECT_EQ(bytes(faces), 8 * comm.sum(face_ghosts));
 }
 
+// Every ghost holds its cell's value; the owner gets one for each rank that holds a ghost of it, in either
+// width.
+TEST_P(Halo, GivesTheValuesOfGhostsBackToTheirOwners) {
+  for (const HaloWidth width : {HaloWidth::points, HaloWidth::faces}) {
+    std::vector<Real> values(cells);
+    ReverseHaloExchange<Real> reverse(domain, comm, values, width);
+    HaloExchange<Real> halo(domain, comm, values, width);
+    std::vector<Real> ghosts_of(static_cast<std::size_t>(domain.global_cells), 0);
+    for (const auto& neighbour : domain.neighbours)
+      for (Index i = 0; i < (width == HaloWidth::points ? neighbour.ghost_count : neighbour.ghost_face_count);
+           ++i)
+        ++ghosts_of[static_cast<std::size_t>(domain.cell_ids[neighbour.ghost_begin + i])];
+    comm.sum(ghosts_of);
+    for (int round = 0; round < 2; ++round) {
+      fill_owned(domain, values, round);
+      halo.exchange();
+      reverse.exchange();
+      for (Index cell = 0; cell < domain.owned_cells; ++cell)
+        EXPECT_EQ(values[cell], (1 + ghosts_of[static_cast<std::size_t>(domain.cell_ids[cell])]) *
+                                    value_of(domain.cell_ids[cell], round));
+    }
+  }
+}
+
 TEST_P(Halo, RefusesAnArrayOfAnotherSize) {
   std::vector<Real> values(cells + 1);
   EXPECT_THROW(HaloExchange<Real>(domain, comm, values), std::logic_error);
+  EXPECT_THROW(ReverseHaloExchange<Real>(domain, comm, values), std::logic_error);
 }
 
 // A leaked or dangling exchange would receive into freed memory: the next ones would be wrong or hang.

@@ -1,4 +1,4 @@
-// From loads in solver units to coefficients.
+// Between loads in solver units and coefficients.
 #pragma once
 
 #include "analysis/coefficients.hpp"
@@ -15,6 +15,18 @@ inline Coefficients coefficients(const Load& load, const Case& settings) {
   const Real scale = (reference.half_model ? 2 : 1) / (dynamic_pressure * reference.area);
   auto out = coefficients_of(scale * load.force, scale / reference.length * load.moment);
   if (reference.half_model) out.CY = out.Cl = out.Cn = 0;
+  return out;
+}
+
+/// The transpose: what a coefficient, by its number, takes of each entry of a load.
+inline Load coefficient_weight(int coefficient, const Case& settings) {
+  Load out;
+  for (int axis = 0; axis < 3; ++axis) {
+    Load force, moment;
+    force.force[axis] = moment.moment[axis] = 1;
+    out.force[axis] = coefficients(force, settings)[coefficient];
+    out.moment[axis] = coefficients(moment, settings)[coefficient];
+  }
   return out;
 }
 

@@ -1,0 +1,118 @@
+#include "derivatives/functional.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/error.hpp"
+#include "derivatives/flight_variables.hpp"
+#include "derivatives/loads.hpp"
+
+namespace alphadot {
+
+namespace {
+
+constexpr std::array<std::string_view, 3> suffixes = {"", "_alphadot", "_alphaddot"};
+
+std::string at_patches(const Functional& functional) {
+  return functional.patches.empty() ? "" : fmt::format("@{}", fmt::join(functional.patches, "+"));
+}
+
+std::vector<std::string> split(std::string_view text, char at) {
+  std::vector<std::string> out;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find(at, begin), text.size());
+    out.emplace_back(text.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  return out;
+}
+
+Real product(const Vec3& a, const Vec3& b, bool of_magnitudes) {
+  Real sum = 0;
+  for (int i = 0; i < 3; ++i) sum += of_magnitudes ? std::abs(a[i] * b[i]) : a[i] * b[i];
+  return sum;
+}
+
+Real product(const ConditionsChange& a, const ConditionsChange& b, bool of_magnitudes = false) {
+  return product(a.wind, b.wind, of_magnitudes) + product(a.grid_velocity, b.grid_velocity, of_magnitudes) +
+         product(a.rotation, b.rotation, of_magnitudes);
+}
+
+}  // namespace
+
+std::string Functional::name() const {
+  return fmt::format("{}{}{}", coefficient_names[static_cast<std::size_t>(coefficient)],
+                     suffixes[static_cast<std::size_t>(rates)], at_patches(*this));
+}
+
+Functional parse_functional(std::string_view name, const std::string& where, const Case& settings) {
+  Functional out;
+  const std::size_t at = std::min(name.find('@'), name.size()), end_of_coefficient = name.find('_');
+  const auto coefficient = name.substr(0, std::min(at, end_of_coefficient));
+  const auto suffix = name.substr(coefficient.size(), at - coefficient.size());
+  const auto found = std::ranges::find(coefficient_names, coefficient);
+  const auto rates = std::ranges::find(suffixes, suffix);
+  if (found == coefficient_names.end() || rates == suffixes.end())
+    throw InputError(
+        where, 0, fmt::format("there is no load \"{}\"", name),
+        fmt::format("name any of {}, with _alphadot for its response to the rates of the angles, "
+                    "with @patch or @patch+patch for some of the walls",
+                    fmt::join(coefficient_names, ", ")));
+  out.coefficient = static_cast<int>(found - coefficient_names.begin());
+  out.rates = static_cast<int>(rates - suffixes.begin());
+  if (at < name.size()) out.patches = split(name.substr(at + 1), '+');
+  for (const auto& patch : out.patches) {
+    const auto kind = settings.boundary.find(patch);
+    if (kind == settings.boundary.end() || kind->second != BoundaryKind::wall)
+      throw InputError(where, 0, fmt::format("\"{}\" is no wall of the case", patch),
+                       "name patches that [boundary] makes walls");
+  }
+  const Load weight = coefficient_weight(out.coefficient, settings);
+  if (norm(weight.force) + norm(weight.moment) == 0)
+    throw InputError(where, 0, fmt::format("{} of a half model is zero", coefficient),
+                     "name CA, CN or Cm, or mesh both halves");
+  return out;
+}
+
+std::vector<Load> weights_of(const Functional& functional, const std::vector<std::string>& patch_names,
+                             const Case& settings) {
+  const Load weight = coefficient_weight(functional.coefficient, settings);
+  std::vector<Load> out;
+  for (const auto& patch : patch_names) {
+    const bool counts = functional.patches.empty() ||
+                        std::ranges::find(functional.patches, patch) != functional.patches.end();
+    out.push_back(counts ? weight : Load{});
+  }
+  return out;
+}
+
+std::vector<Variable> variables_of(const Functional& functional, const Case& settings) {
+  using enum Variable;
+  const bool half = settings.reference.half_model;
+  switch (functional.rates) {
+    case 1:
+      return half ? std::vector{alphadot} : std::vector{alphadot, betadot};
+    case 2:
+      return half ? std::vector{alphaddot} : std::vector{alphaddot, betaddot};
+    default:
+      return half ? std::vector{alpha, q} : std::vector{alpha, beta, p, q, r};
+  }
+}
+
+std::string derivative_name(const Functional& functional, std::string_view variable) {
+  return fmt::format("{}_{}{}", coefficient_names[static_cast<std::size_t>(functional.coefficient)], variable,
+                     at_patches(functional));
+}
+
+Estimate derivative(const Adjoint& adjoint, Variable variable, const Case& settings) {
+  const auto change = change_of(angle_of(variable), settings.freestream);
+  const Real scale = rate_scale(variable, settings);
+  return scale *
+         Estimate{product(adjoint.sensitivity, change), product(adjoint.sensitivity_error, change, true)};
+}
+
+}  // namespace alphadot

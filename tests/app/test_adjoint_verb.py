@@ -1,0 +1,118 @@
+"""The verb "adjoint": derivatives by adjoints against those of the forward solves, and against runs at other Mach numbers, gases
+and shapes.
+
+Environment: see program.py.
+"""
+
+from __future__ import annotations
+
+import csv
+import json
+import tempfile
+import unittest
+from pathlib import Path
+
+from program import CASE, RANKS, box, gmsh_text, run, write_case
+
+EXACT = ("--set", "steady.orders=12", "--set", "derivatives.orders=10", "--set", "space.freeze_orders=0")
+AS_ONE = 1e-8  # of forward and adjoint at ten decades
+
+
+class AdjointTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls) -> None:
+        temporary = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(temporary.cleanup)
+        cls.folder = Path(temporary.name)
+        write_case(cls.folder, CASE, gmsh_text(*box(3)))
+        cls.done = cls.run_ok("adjoint", "adjoint", *EXACT, "--of", "CN,Cm,Cl,Cm_alphadot,CN_alphadot,CN@wall")
+
+    @classmethod
+    def run_ok(cls, verb: str, out: str, *arguments: str) -> str:
+        done = run(cls.folder, verb, "case.toml", "--out", out, *arguments)
+        if done.codes != [0] * RANKS:
+            raise AssertionError(done.err)
+        return done.err
+
+    @classmethod
+    def result(cls, out: str) -> dict:
+        return json.loads((cls.folder / out / "result.json").read_text())
+
+    def derivatives(self, out: str) -> dict[str, float]:
+        return {name: entry["value"] for name, entry in self.result(out)["derivatives"].items()}
+
+    def test_gives_those_of_the_forward_solves(self) -> None:
+        self.run_ok("derivatives", "forward", *EXACT)
+        forward, adjoint = self.derivatives("forward"), self.derivatives("adjoint")
+        rates = ("CN_alphadot", "Cm_alphadot")
+        names = [f"{load}_{by}" for load in ("CN", "Cm") for by in ("alpha", "q")] + ["Cl_beta", "Cl_p", "Cl_r", *rates]
+        for name in names:
+            self.assertAlmostEqual(adjoint[name], forward[name], delta=AS_ONE * abs(forward[name]), msg=name)
+        for name in ("CN_alpha", "CN_q", "CN_mach"):  # there is no other wall
+            self.assertAlmostEqual(adjoint[f"{name}@wall"], adjoint[name], delta=1e-12 * abs(adjoint[name]))
+
+    # Steady runs a little above and below; the step leaves errors of 1e-8 of truncation and 1e-7 of convergence.
+    def test_gives_those_by_mach_number_and_gas(self) -> None:
+        found = self.derivatives("adjoint")
+        for key, about, step in (("mach", 2.0, 1e-4), ("gamma", 1.4, 1e-4)):
+            forces = []
+            for sign in (1, -1):
+                self.run_ok("run", "moved", *EXACT, "--set", f"freestream.{key}={about + sign * step}")
+                forces.append(self.result("moved")["forces"])
+            for load in ("CN", "Cm"):
+                difference = (forces[0][load] - forces[1][load]) / (2 * step)
+                self.assertAlmostEqual(found[f"{load}_{key}"], difference, delta=1e-5 * abs(difference), msg=f"{load} {key}")
+
+    # The wall's points go up along a wave, by the table of the walls' sensitivity: those inside stay where they are.
+    def test_gives_those_by_the_shape(self) -> None:
+        with open(self.folder / "adjoint/surface_sensitivity.csv") as file:
+            rows = list(csv.DictReader(line for line in file if not line.startswith("#")))
+        points, cells, patches = box(3)
+        self.assertEqual(len(rows), 16)
+
+        def up(x: float, y: float) -> float:
+            return x * x + 0.3 * y
+
+        step, forces = 1e-5, []
+        for sign in (1, -1):
+            moved = [(x, y, z + (sign * step * up(x, y) if z == 0 else 0)) for x, y, z in points]
+            write_case(self.folder, CASE, gmsh_text(moved, cells, patches))
+            self.run_ok("run", "moved", *EXACT)
+            forces.append(self.result("moved")["forces"])
+        write_case(self.folder, CASE, gmsh_text(points, cells, patches))
+        for load in ("CN", "Cm"):
+            found = sum(up(float(row["x"]), float(row["y"])) * float(row[f"{load}_by_z"]) for row in rows)
+            difference = (forces[0][load] - forces[1][load]) / (2 * step)
+            self.assertAlmostEqual(found, difference, delta=1e-5 * abs(difference), msg=load)
+
+    def test_writes_its_files(self) -> None:
+        for name in ("adjoint.csv", "adjoint.vtkhdf", "surface_sensitivity.vtkhdf", "flow.vtkhdf", "case.toml"):
+            self.assertTrue((self.folder / "adjoint" / name).is_file(), name)
+        table = (self.folder / "adjoint/adjoint.csv").read_text()
+        self.assertIn("\nCm_alphadot,", table)
+        self.assertIn("moment centre", table)
+
+    def test_goes_on_from_its_checkpoints(self) -> None:
+        self.run_ok("adjoint", "part", *EXACT, "--of", "CN,Cm")
+        said = self.run_ok("adjoint", "part", *EXACT, "--restart", "--of", "CN,Cm,Cl,Cm_alphadot,CN_alphadot,CN@wall")
+        self.assertIn("2 adjoints are taken from the checkpoint", said)
+        whole, part = self.derivatives("adjoint"), self.derivatives("part")
+        for name, value in whole.items():
+            self.assertAlmostEqual(part[name], value, delta=AS_ONE * max(abs(value), 1), msg=name)
+
+    def test_says_what_is_wrong(self) -> None:
+        for arguments, part in (
+            (("--of", "Cd"), 'no load "Cd"'),
+            (("--of", "Cm_alpha"), 'no load "Cm_alpha"'),
+            (("--of", "Cm@farfield"), '"farfield" is no wall'),
+            (("--of", "Cl", "--set", "reference.model=half"), "Cl of a half model is zero"),
+            (("--set", "steady.scheme=lu_sgs"), "block_lu_sgs"),
+        ):
+            done = run(self.folder, "adjoint", "case.toml", "--out", "wrong", *arguments)
+            self.assertEqual(done.codes, [1] * RANKS)
+            self.assertEqual(len(done.errors), 1, done.err)
+            self.assertIn(part, done.errors[0])
+
+
+if __name__ == "__main__":
+    unittest.main()
