@@ -225,7 +225,8 @@ RunStatus adjoint_verb(const CaseArguments& arguments, const std::vector<std::st
   result.performance.linear_cpu_s = comm.sum(linear_cpu);
   if (!rows.empty())
     comm.on_root([&] {
-      replace_file_with(flow.folder() + "/adjoint.csv", derivative_csv(rows, flow.settings().reference));
+      replace_file_with(flow.folder() + "/adjoint.csv",
+                        derivative_csv(rows, flow.table_head(result.status, rows)));
     });
   flow.write(result);
   flow.print(result, rows);

@@ -46,7 +46,7 @@ SensitivityProblem problem_of(ResponseKey key, const FlowCase& flow, const Solve
   const auto [variable, limiter_held] = key;
   SensitivityProblem out{std::string(name(variable)), change_of(variable, flow.settings().freestream)};
   const bool has_rate = variable == Variable::alpha || variable == Variable::beta ||
-                        (flow.settings().derivatives.second_order && time_derivatives(variable) == 1);
+                        (flow.settings().derivatives.second_order && rates_in(variable) == 1);
   if (has_rate) out.further_orders = 1;
   if (const auto angle = rate_of(variable)) {
     const auto& response = responses.at({*angle, limiter_held});

@@ -57,18 +57,24 @@ struct Record {
   Real drop() const { return norms.back() / std::max(norms.front(), Real{1e-300}); }
 };
 
-/// Error that the latest changes leave when they go on to shrink as the residual did over the last
-/// iterations.
+/// As many times the residual as the products of any earlier iteration were from the latest, twice, and a
+/// share of the largest product, as in the forward solves.
 std::vector<Real> remaining_error(const Record& record) {
-  constexpr std::size_t span = 4;
-  const std::size_t last = record.products.size() - 1, before = last - std::min(last, span);
-  const Real drop = record.norms[last] / std::max(record.norms[before], Real{1e-300});
-  const Real rate =
-      last == 0 ? 0.5 : std::clamp(std::pow(drop, 1.0 / static_cast<Real>(last - before)), 0.3, 0.95);
-  std::vector<Real> out(record.products.back().size(), 0);
+  constexpr Real safety = 2, much_larger = 2, of_other_components = 0.05;
+  const auto& latest = record.products.back();
+  const Real last = record.norms.back();
+  Real largest = 0;
+  for (const Real product : latest) largest = std::max(largest, std::abs(product));
+  std::vector<Real> out(latest.size(), of_other_components * record.drop() * largest);
+  if (record.norms.size() == 1)
+    for (std::size_t i = 0; i < out.size(); ++i) out[i] += std::abs(latest[i]);
   for (std::size_t i = 0; i < out.size(); ++i) {
-    const auto at = [&](std::size_t back) { return back > last ? 0 : record.products[last - back][i]; };
-    out[i] = std::max(std::abs(at(0) - at(1)), std::abs(at(1) - at(2))) * rate / (1 - rate);
+    Real distance = 0;
+    for (std::size_t j = 0; j + 1 < record.norms.size(); ++j)
+      if (record.norms[j] >= much_larger * last)
+        distance = std::max(
+            distance, safety * last / (record.norms[j] - last) * std::abs(record.products[j][i] - latest[i]));
+    out[i] += distance;
   }
   return out;
 }
