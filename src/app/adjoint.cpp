@@ -17,6 +17,7 @@
 #include "core/error.hpp"
 #include "core/log.hpp"
 #include "core/timer.hpp"
+#include "derivatives/block_solve.hpp"
 #include "derivatives/stream_change.hpp"
 #include "derivatives/surface_sensitivity.hpp"
 #include "io/files.hpp"
@@ -66,8 +67,8 @@ bool solve_all(FlowCase& flow, const std::vector<Functional>& functionals, Adjoi
       else
         problems.push_back({link.name(), {}, adjoints.at(link.before()).field});
     }
-    for (std::size_t begin = 0; begin < problems.size(); begin += AdjointSolver::at_a_time) {
-      const auto end = std::min(begin + AdjointSolver::at_a_time, problems.size());
+    for (std::size_t begin = 0; begin < problems.size(); begin += problems_at_a_time) {
+      const auto end = std::min(begin + problems_at_a_time, problems.size());
       auto solved = solver.solve({problems.begin() + static_cast<std::ptrdiff_t>(begin),
                                   problems.begin() + static_cast<std::ptrdiff_t>(end)});
       if (solved.empty()) return false;

@@ -41,9 +41,6 @@ struct Adjoint {
 /// preconditioned by the transpose of the implicit scheme of `iteration`: the twin of SensitivitySolver.
 class AdjointSolver {
  public:
-  /// So many problems are solved together.
-  static constexpr std::size_t at_a_time = 3;
-
   /// The flow of `iteration` must be steady under `conditions`. `go_on`, when given, is asked after each
   /// linear iteration, on every rank. Collective.
   AdjointSolver(ImplicitIteration& iteration, const Conditions<Real>& conditions,

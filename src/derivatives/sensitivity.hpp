@@ -44,9 +44,6 @@ struct Sensitivity {
 /// that are solved together share their directions.
 class SensitivitySolver {
  public:
-  /// So many problems are solved together.
-  static constexpr std::size_t at_a_time = 3;
-
   /// The flow of `iteration` must be steady under `conditions`. `go_on`, when given, is asked after each
   /// linear iteration, on every rank. Collective.
   SensitivitySolver(ImplicitIteration& iteration, const Conditions<Real>& conditions,

@@ -1,47 +1,14 @@
-// Cell gradients, limited, and the states they give on faces.
+// Limited gradients of the cells, and the states they give on faces.
 #pragma once
 
-#include <array>
-#include <cstdint>
 #include <span>
 #include <type_traits>
 #include <vector>
 
-#include "core/changes.hpp"
 #include "core/communicator.hpp"
-#include "core/four.hpp"
-#include "space/discretization.hpp"
-#include "space/flow_field.hpp"
+#include "space/limited_gradient.hpp"
 
 namespace alphadot {
-
-/// Derivatives of the primitive state along x, y and z.
-template <class T>
-struct Gradient {
-  Primitive<T> along[3];
-};
-
-/// state + gradient . offset
-template <class T>
-Primitive<T> extrapolated(const Primitive<T>& state, const Gradient<T>& gradient, const Vec3& offset) {
-  Primitive<T> out;
-  for (int i = 0; i < 5; ++i)
-    out[i] = state[i] + (offset.x * gradient.along[0][i] + offset.y * gradient.along[1][i] +
-                         offset.z * gradient.along[2][i]);
-  return out;
-}
-
-/// The same for plain numbers: four variables in a vector register, the last one by itself.
-inline Primitive<Real> extrapolated(const Primitive<Real>& state, const Gradient<Real>& gradient,
-                                    const Vec3& offset) {
-  const auto& [x, y, z] = gradient.along;
-  Primitive<Real> out;
-  store_four(load_four(state.v) +
-                 (offset.x * load_four(x.v) + offset.y * load_four(y.v) + offset.z * load_four(z.v)),
-             out.v);
-  out[4] = state[4] + (offset.x * x[4] + offset.y * y[4] + offset.z * z[4]);
-  return out;
-}
 
 /// Share of a reconstruction that a face may use: all of it while the state on the face keeps a fifth of the
 /// cell's density and pressure, in proportion below, none of it at vacuum. A limiter that is not frozen
@@ -54,18 +21,6 @@ T usable_share(const Primitive<T>& face, const Primitive<T>& cell) {
   const T lowest = density < pressure ? density : pressure;
   return lowest > T(0) ? T(lowest / kept) : T(0);
 }
-
-/// How the limited gradient of one cell follows a small change of the flow:
-///   d(phi g) = phi dg + g (by_delta ddelta + by_bound dbound)
-/// in each variable, delta and bound being those of the corner that limits it most (see limiter.hpp).
-struct LimiterSlope {
-  Primitive<Real> factor;   ///< phi
-  Gradient<Real> gradient;  ///< g
-  Primitive<Real> by_delta, by_bound;
-  Primitive<Real> by_density, by_pressure;  ///< of the cell itself, which set what passes the limiter
-  std::array<std::uint8_t, 5> corner;
-  std::array<Index, 5> extremum;  ///< the cell whose value gives the bound
-};
 
 /// Limited gradients of a flow field, or (T = Changes) their changes with it.
 template <class T>
@@ -100,37 +55,13 @@ class Reconstruction {
   const HaloExchange<Gradient<T>>& halo() const { return gradients_.halo(); }
 
  private:
-  struct Extrema {
-    Primitive<T> minimum, maximum;
-  };
-  struct NoExtrema {};
-  /// Over the cells j around a point v, variable by variable: sums of q_j times (c_j - x_v, 1); and extrema.
-  struct PointSums : std::conditional_t<is_change<T>, NoExtrema, Extrema> {
-    std::array<Four<T>, 5> moments;
-  };
-  /// Vectors from the corners of a cell to its centroid.
-  using Offsets = std::array<Vec3, 4>;
-
-  void gather_points(const FlowField<T>& flow, Index begin, Index end);
   void fit_cells(const FlowField<T>& flow, Index begin, Index end);
   template <LimiterKind limiter>
   void fit_limited(const FlowField<T>& flow, Index begin, Index end);
-  Gradient<T> least_squares(Index cell, const Offsets& offsets, const Primitive<T>& w) const;
-  Gradient<T> green_gauss(Index cell) const;
-  Offsets offsets_of(Index cell) const;
-  Gradient<T> unlimited(Index cell, const Offsets& offsets, const Primitive<T>& w) const;
-  template <LimiterKind limiter>
-  Primitive<T> limiter_factors(Index cell, const Offsets& offsets, const Primitive<T>& w,
-                               const Gradient<T>& gradient);
-  template <LimiterKind limiter>
-  void follow_limiter(Index cell, const FlowField<T>& flow, const Offsets& offsets,
-                      Gradient<T>& gradient) const;
-  template <LimiterKind limiter>
-  LimiterSlope limiter_slope(Index cell, const FlowField<T>& flow) const;
 
   const Discretization& discretization_;
   CellField<Gradient<T>> gradients_;
-  std::vector<PointSums> points_;     // [owned_points]
+  std::vector<PointSums<T>> points_;  // [owned_points]
   std::vector<Five<float>> factors_;  // [owned_cells] of the limiter, when the case may freeze it
   bool frozen_ = false;
   Index positivity_cells_ = 0;

@@ -12,12 +12,6 @@ namespace {
 
 constexpr Index points_ahead = 2;  // that the memory is asked for
 
-/// Sum over the axes of offset times the gradient along them.
-template <int N>
-Changes<N> along(const Vec3& offset, const Gradient<Changes<N>>& gradient, int i) {
-  return offset.x * gradient.along[0][i] + offset.y * gradient.along[1][i] + offset.z * gradient.along[2][i];
-}
-
 }  // namespace
 
 template <int N>
@@ -41,13 +35,6 @@ void ReconstructionTranspose<N>::fit_cells(Index begin, Index end, States states
   }
 }
 
-/// From a corner of a cell to its centroid.
-template <int N>
-Vec3 ReconstructionTranspose<N>::offset(Index cell, std::size_t corner) const {
-  const Subdomain& domain = discretization_.domain();
-  return domain.center[cell] - domain.points[domain.cell_points[cell][corner]];
-}
-
 /// The way there: out = phi g + g0 (by_delta delta + by_bound bound + by_density rho + by_pressure p), with
 /// delta = offset . g and bound the difference of the extremum and the cell.
 template <int N>
@@ -56,11 +43,12 @@ void ReconstructionTranspose<N>::follow_limiter(Index cell, States states) {
   const Real reached = reach(discretization_.space().limiter);
   Gradient<Changes<N>>& gradient = (*this)[cell];
   Primitive<Changes<N>>& state = states[static_cast<std::size_t>(cell)];
+  const Offsets offsets = offsets_of(discretization_.domain(), cell);
   for (int i = 0; i < 5; ++i) {
     const auto entry = static_cast<std::size_t>(i);
     const Vec3 of_flow{slope.gradient.along[0][i], slope.gradient.along[1][i], slope.gradient.along[2][i]};
-    const Changes<N> factor = along(of_flow, gradient, i);
-    const Vec3 to_look = reached * offset(cell, slope.corner[entry]);
+    const Changes<N> factor = change_at(gradient, of_flow, i);
+    const Vec3 to_look = reached * offsets[slope.corner[entry]];
     for (int axis = 0; axis < 3; ++axis)
       gradient.along[axis][i] =
           slope.factor[i] * gradient.along[axis][i] + (slope.by_delta[i] * to_look[axis]) * factor;
@@ -75,17 +63,19 @@ void ReconstructionTranspose<N>::follow_limiter(Index cell, States states) {
 /// The way there: a^-1 (sum over corners of (moments - offset count) - (sum of their offsets) w).
 template <int N>
 void ReconstructionTranspose<N>::least_squares(Index cell, States states) {
+  const Offsets offsets = offsets_of(discretization_.domain(), cell);
   Vec3 sum;
   for (std::size_t corner = 0; corner < 4; ++corner) {
     const PointMoments& moments =
         discretization_.point_moments(discretization_.domain().cell_points[cell][corner]);
-    sum += moments.first - moments.count * offset(cell, corner);
+    sum += moments.first - moments.count * offsets[corner];
   }
   const Symmetric3& a = discretization_.inverse_fit(cell);
   Gradient<Changes<N>>& gradient = (*this)[cell];
   for (int i = 0; i < 5; ++i) {
-    const Changes<N> x = along({a.xx, a.xy, a.xz}, gradient, i), y = along({a.xy, a.yy, a.yz}, gradient, i),
-                     z = along({a.xz, a.yz, a.zz}, gradient, i);
+    const Changes<N> x = change_at(gradient, {a.xx, a.xy, a.xz}, i),
+                     y = change_at(gradient, {a.xy, a.yy, a.yz}, i),
+                     z = change_at(gradient, {a.xz, a.yz, a.zz}, i);
     gradient.along[0][i] = x;
     gradient.along[1][i] = y;
     gradient.along[2][i] = z;
@@ -124,13 +114,13 @@ void ReconstructionTranspose<N>::scatter_moments(Index point, States states) con
     const Vec3 d = domain.center[cell] - x;
     for (int i = 0; i < 5; ++i) {
       for (int axis = 0; axis < 3; ++axis) first.along[axis][i] += right.along[axis][i];
-      count[i] -= along(d, right, i);
+      count[i] -= change_at(right, d, i);
     }
   }
   for (const Index cell : domain.point_cells[point]) {
     const Vec3 d = domain.center[cell] - x;
     auto& state = states[static_cast<std::size_t>(cell)];
-    for (int i = 0; i < 5; ++i) state[i] += along(d, first, i) + count[i];
+    for (int i = 0; i < 5; ++i) state[i] += change_at(first, d, i) + count[i];
   }
 }
 
@@ -145,7 +135,7 @@ void ReconstructionTranspose<N>::scatter_value(Index point, States states) const
     const auto& corners = domain.cell_points[cell];
     const auto corner = static_cast<std::size_t>(std::ranges::find(corners, point) - corners.begin());
     const Vec3 slope = corner_slope(domain, cell, corner);
-    for (int i = 0; i < 5; ++i) value[i] += along(slope, gradients_[static_cast<std::size_t>(cell)], i);
+    for (int i = 0; i < 5; ++i) value[i] += change_at(gradients_[static_cast<std::size_t>(cell)], slope, i);
   }
   const PointMoments& moments = discretization_.point_moments(point);
   const Real inverse_weight = 1 / (moments.count + dot(moments.lambda, moments.first));

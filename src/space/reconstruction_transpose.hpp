@@ -35,7 +35,6 @@ class ReconstructionTranspose {
  private:
   void follow_limiter(Index cell, States states);
   void least_squares(Index cell, States states);
-  Vec3 offset(Index cell, std::size_t corner) const;
   void scatter_moments(Index point, States states) const;
   void scatter_value(Index point, States states) const;
 

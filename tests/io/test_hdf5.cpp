@@ -126,7 +126,7 @@ TEST(Hdf5, ErrorsNameTheFileAndWhatFailed) {
 
 TEST(Hdf5, UnsoundFilesAreRefused) {
   const TemporaryFolder folder;
-  EXPECT_NE(message_of([&] { hdf5::File::open(folder / "none.h5"); }).find("no such file"),
+  EXPECT_NE(message_of([&] { hdf5::File::open(folder / "none.h5"); }).find("No such file or directory"),
             std::string::npos);
   std::ofstream(folder / "text.h5") << "step,time\n1,2\n";
   EXPECT_NE(message_of([&] { hdf5::File::open(folder / "text.h5"); }).find("not an HDF5 file"),

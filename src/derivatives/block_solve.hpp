@@ -1,0 +1,266 @@
+// Several linear problems with one operator on their way to their solutions, forward or transposed.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <span>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "core/case.hpp"
+#include "core/error.hpp"
+#include "derivatives/preconditioner.hpp"
+#include "linear/krylov_basis.hpp"
+
+namespace alphadot {
+
+/// So many problems are solved together.
+inline constexpr std::size_t problems_at_a_time = 3;
+
+/// What a solve asks of one of its problems.
+struct BlockProblem {
+  std::string name;
+  Real orders;  ///< decades that its norm is to drop by
+  std::span<const Five<Real>> guess = {};
+};
+
+/// The way of one problem to its solution: linear functionals of it (of this rank only) and the norm of the
+/// scaled defect, at the start and after every iteration.
+struct BlockRecord {
+  std::vector<std::vector<Real>> functionals;
+  std::vector<Real> norms;
+  Real drop() const { return norms.back() / std::max(norms.front(), Real{1e-300}); }
+};
+
+/// How far the latest of the functionals, over all ranks, may be from those of the solution: as many times
+/// the residual as those of any earlier iteration were from the latest. The ratio differs between iterations,
+/// since residuals in some cells matter more to a functional than in others; the largest one counts, and
+/// twice, for it is a sample.
+inline std::vector<Real> remaining_error(std::span<const Real> norms,
+                                         std::span<const std::vector<Real>> functionals) {
+  constexpr Real safety = 2, much_larger = 2;
+  const Real last = norms.back();
+  const auto& latest = functionals.back();
+  std::vector<Real> out(latest.size());
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    if (norms.size() == 1) out[i] = std::abs(latest[i]);
+    for (std::size_t j = 0; j + 1 < norms.size(); ++j)
+      if (norms[j] >= much_larger * last)
+        out[i] =
+            std::max(out[i], safety * last / (norms[j] - last) * std::abs(functionals[j][i] - latest[i]));
+  }
+  return out;
+}
+
+/// N problems solved together by block GMRES with the implicit scheme on the right, so that what it makes
+/// small is the true residual, or by marching with that scheme. Every application of the operator serves all
+/// problems, and all of them look along the directions of all. The operator is a class with
+///   apply(fields, images, with_source)   images = A fields, or A fields + b; [owned_cells] each
+///   functionals(k)                       of problem k's field in the latest apply(), of this rank
+///   scale(image, out), unscale(in, out)  D of the norm |D (A U + b)| and its inverse
+///   transposed                           Transposed::yes or no, for the preconditioner
+template <int N, class Operator>
+class BlockSolve {
+ public:
+  using Field = std::vector<Five<Real>>;
+  using Fields = std::array<std::span<const Five<Real>>, N>;
+  using Images = std::array<std::span<Five<Real>>, N>;
+
+  BlockSolve(Operator& of, ImplicitIteration& iteration, const Conditions<Real>& conditions,
+             std::array<BlockProblem, N> problems, const DerivativeSettings& settings,
+             const std::function<bool()>& go_on)
+      : operator_(of),
+        iteration_(iteration),
+        problems_(std::move(problems)),
+        settings_(settings),
+        go_on_(go_on),
+        space_(static_cast<std::size_t>(iteration.discretization().domain().owned_cells), settings.directions,
+               [this](std::vector<Real>& numbers) { iteration_.sum(numbers); }),
+        preconditioner_(iteration, conditions, Operator::transposed) {
+    const auto cells = static_cast<std::size_t>(iteration.discretization().domain().owned_cells);
+    for (auto* arrays : {&fields_, &images_, &corrections_, &defects_})
+      for (Field& array : *arrays) array.resize(cells);
+    begin();
+  }
+
+  /// False when it was stopped. Throws DivergedError when a solution leaves the numbers or a march grows.
+  bool solve() {
+    evaluate(true);
+    settings_.method == SensitivityMethod::march ? march() : gmres();
+    return !is_stopped_;
+  }
+
+  Field& field(std::size_t k) { return fields_[k]; }
+  const BlockRecord& record(std::size_t k) const { return records_[k]; }
+  int iterations() const { return iterations_; }
+
+ private:
+  void begin() {
+    for (std::size_t k = 0; k < N; ++k) {
+      std::ranges::fill(fields_[k], Five<Real>{});
+      std::ranges::copy(problems_[k].guess, fields_[k].begin());
+    }
+    records_ = {};
+  }
+
+  /// The defects D (A U + b) of all problems at their present fields; functionals and norms into the records,
+  /// of a further iteration or, since those of a Krylov space are carried along, in place of the latest.
+  void evaluate(bool is_further) {
+    operator_.apply(const_spans(fields_), spans(images_), true);
+    std::vector<Real> squares;
+    for (std::size_t k = 0; k < N; ++k) {
+      operator_.scale(images_[k], defects_[k]);
+      squares.push_back(square(defects_[k]));
+      if (!is_further) {
+        records_[k].functionals.pop_back();
+        records_[k].norms.pop_back();
+      }
+      records_[k].functionals.push_back(operator_.functionals(k));
+    }
+    iteration_.sum(squares);
+    for (std::size_t k = 0; k < N; ++k) add_norm(k, std::sqrt(squares[k]));
+  }
+
+  void add_norm(std::size_t k, Real norm) {
+    records_[k].norms.push_back(norm);
+    if (!std::isfinite(norm))
+      throw DivergedError("the linear solve for " + problems_[k].name + " came to a norm that is no number");
+  }
+
+  static Images spans(std::array<Field, N>& arrays) {
+    Images out;
+    for (std::size_t k = 0; k < N; ++k) out[k] = arrays[k];
+    return out;
+  }
+  static Fields const_spans(const std::array<Field, N>& arrays) {
+    Fields out;
+    for (std::size_t k = 0; k < N; ++k) out[k] = arrays[k];
+    return out;
+  }
+
+  /// corrections_ = -P^-1 (A U + b), from the defects; images_ serves as a buffer.
+  void precondition() {
+    std::array<LinearSystem, N> systems;
+    for (std::size_t k = 0; k < N; ++k) {
+      operator_.unscale(defects_[k], images_[k]);
+      systems[k] = {images_[k], corrections_[k]};
+    }
+    preconditioner_.solve(systems);
+  }
+
+  bool all_dropped() const {
+    for (std::size_t k = 0; k < N; ++k)
+      if (records_[k].drop() > std::pow(10.0, -problems_[k].orders)) return false;
+    return true;
+  }
+  Real largest_norm() const {
+    Real out = 0;
+    for (const auto& record : records_) out = std::max(out, record.norms.back());
+    return out;
+  }
+  bool is_stopped() {
+    is_stopped_ = is_stopped_ || (go_on_ && !go_on_());
+    return is_stopped_;
+  }
+
+  /// U += -P^-1 (A U + b) until it is steady; from the start again with a gentler preconditioner where that
+  /// grows.
+  void march() {
+    constexpr Real grown = 10;
+    for (int count = 1; count <= settings_.max_iterations && !all_dropped(); ++count) {
+      precondition();
+      ++iterations_;
+      for (std::size_t k = 0; k < N; ++k)
+        for (std::size_t i = 0; i < corrections_[k].size(); ++i) fields_[k][i] += corrections_[k][i];
+      evaluate(true);
+      if (is_stopped()) return;
+      const auto growing = std::ranges::find_if(records_, [](const auto& r) { return r.drop() > grown; });
+      if (growing == records_.end()) continue;
+      if (!preconditioner_.can_be_damped())
+        throw DivergedError("the march of the response to " +
+                            problems_[static_cast<std::size_t>(growing - records_.begin())].name +
+                            " grows: the steady state hides an unstable cell");
+      preconditioner_.damp();
+      begin();
+      evaluate(true);
+    }
+  }
+
+  /// Every iteration looks along what the preconditioner makes of the present defects.
+  void gmres() {
+    constexpr Real single_precision = 1e-5;  // what directions kept as such can reduce a residual by
+    for (int used = 0, at_level = 0; used < settings_.max_iterations && !all_dropped();) {
+      if (space_.is_full()) space_.clear();
+      const Real cycle_start = largest_norm();
+      std::vector<KrylovBasis::System> searches;
+      for (std::size_t k = 0; k < N; ++k)
+        searches.push_back({defects_[k], records_[k].functionals.back(), {}, 0});
+      bool stalls = false;
+      while (used < settings_.max_iterations && !space_.is_full() && !all_dropped() && !stalls &&
+             largest_norm() > single_precision * cycle_start) {
+        widen_space();
+        space_.reduce(searches);
+        for (std::size_t k = 0; k < N; ++k) {
+          records_[k].functionals.push_back(searches[k].functionals);
+          add_norm(k, searches[k].norm);
+        }
+        ++used, ++at_level, ++iterations_;
+        if (is_stopped()) return;
+        stalls =
+            at_level >= static_cast<int>(Preconditioner::stalled_iterations) &&
+            preconditioner_.can_be_damped() &&
+            std::ranges::any_of(records_, [](const auto& r) { return Preconditioner::has_stalled(r.norms); });
+      }
+      for (std::size_t k = 0; k < N; ++k) space_.move(fields_[k], searches[k].shares);
+      if (stalls) {
+        preconditioner_.damp();
+        at_level = 0;
+      }
+      evaluate(false);
+    }
+  }
+
+  void widen_space() {
+    precondition();
+    operator_.apply(const_spans(corrections_), spans(images_), false);
+    std::vector<KrylovBasis::Candidate> candidates;
+    for (std::size_t k = 0; k < N; ++k) {
+      operator_.scale(images_[k], images_[k]);
+      candidates.push_back({corrections_[k], images_[k], operator_.functionals(k)});
+    }
+    space_.add(candidates);
+  }
+
+  Operator& operator_;
+  ImplicitIteration& iteration_;
+  std::array<BlockProblem, N> problems_;
+  DerivativeSettings settings_;
+  const std::function<bool()>& go_on_;
+  KrylovBasis space_;
+  Preconditioner preconditioner_;
+  std::array<BlockRecord, N> records_;
+  std::array<Field, N> fields_, images_, corrections_, defects_;
+  int iterations_ = 0;
+  bool is_stopped_ = false;
+};
+
+/// Calls solve(group, std::integral_constant<int, N>) for one group of the problems after the other, until it
+/// returns false; so does this then.
+template <class Problem, class Solve>
+bool in_groups(std::span<const Problem> problems, const Solve& solve) {
+  while (!problems.empty()) {
+    const auto group = problems.first(std::min(problems_at_a_time, problems.size()));
+    const bool goes_on = group.size() == 3   ? solve(group, std::integral_constant<int, 3>{})
+                         : group.size() == 2 ? solve(group, std::integral_constant<int, 2>{})
+                                             : solve(group, std::integral_constant<int, 1>{});
+    if (!goes_on) return false;
+    problems = problems.subspan(group.size());
+  }
+  return true;
+}
+
+}  // namespace alphadot
