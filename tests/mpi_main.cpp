@@ -7,10 +7,7 @@ int main(int argc, char** argv) {
   alphadot::MpiSession mpi(argc, argv);
   testing::InitGoogleTest(&argc, argv);
   const alphadot::Communicator comm;
-  if (!comm.is_root()) {
-    auto& listeners = testing::UnitTest::GetInstance()->listeners();
-    delete listeners.Release(listeners.default_result_printer());
-  }
+  if (!comm.is_root()) GTEST_FLAG_SET(brief, true);  // the others print their failures alone
   const bool failed = RUN_ALL_TESTS() != 0;
   return comm.any(failed) ? 1 : 0;
 }
