@@ -5,15 +5,14 @@
 #include <algorithm>
 #include <deque>
 #include <filesystem>
-#include <fstream>
 #include <map>
-#include <sstream>
 #include <tuple>
 
 #include "core/error.hpp"
 #include "core/fit_needs.hpp"
 #include "io/case_keys.hpp"
 #include "io/case_words.hpp"
+#include "io/files.hpp"
 #include "io/suggestion.hpp"
 #include "io/toml_text.hpp"
 
@@ -101,21 +100,24 @@ class CaseReader {
     entries_[path] = {key, overrides_.back().get("value"), place, 0};
   }
 
-  Case finish() {
-    Case c;
+  CaseDraft finish() {
+    CaseDraft out;
+    Case& c = out.settings;
     c.file = path_;
     for (const auto& [path, entry] : entries_) {
       const auto name = std::string_view(path).substr(entry.key->table().size());
       if (auto problem = entry.key->read(name, *entry.node, c))
         complain(entry.place, {"", entry.line, path + " " + problem->what, problem->remedy});
+      if (entry.key->is_family() && entry.line > 0) c.boundary_lines[std::string(name)] = entry.line;
     }
     if (!unreadable_) {
       check_required();
       check_together(c);
     }
-    if (!problems_.empty()) throw_problems();
     fill_in(c);
-    return c;
+    out.is_readable = !unreadable_;
+    out.problems = sorted_problems();
+    return out;
   }
 
  private:
@@ -223,6 +225,11 @@ class CaseReader {
                       "too few are left behind the start of the ramp, which takes half of it");
       }
       default:
+        if (unsteady.cycles * unsteady.steps_per_cycle > most_steps)
+          complain_about({"unsteady.cycles", "unsteady.steps_per_cycle"},
+                         fmt::format("unsteady.cycles * unsteady.steps_per_cycle is {:g} time steps",
+                                     unsteady.cycles * unsteady.steps_per_cycle),
+                         fmt::format("ask for at most {}", most_steps));
         refuse("cycles", unsteady.cycles, discarded_cycles + least_fitted_cycles,
                fmt::format("the first {:g} are left out as start-up, and the fit takes {:g}",
                            discarded_cycles, least_fitted_cycles));
@@ -242,14 +249,14 @@ class CaseReader {
     if (c.output.folder.empty()) c.output.folder = "runs/" + fs::path(path_).stem().string();
   }
 
-  [[noreturn]] void throw_problems() {
+  std::vector<Problem> sorted_problems() {
     const auto order = [&](const Problem& p) {
       return std::tuple(p.file != path_, p.file == path_ ? p.line : 0);
     };
     std::ranges::stable_sort(problems_, {}, order);
     if (left_out_ > 0)
       problems_.push_back({path_, 0, fmt::format("and {} more mistakes", left_out_), "is it a case file?"});
-    throw InputError(std::move(problems_));
+    return std::move(problems_);
   }
 
   std::string path_;
@@ -261,31 +268,28 @@ class CaseReader {
   bool unreadable_ = false;  ///< the file is not TOML: what it lacks cannot be told
 };
 
-std::string contents(const std::string& path) {
-  std::error_code error;
-  if (!fs::exists(path, error)) throw InputError(path, 0, "no such case file");
-  if (!fs::is_regular_file(path, error)) throw InputError(path, 0, "the case file is not a regular file");
-  if (fs::file_size(path, error) > largest_file)
-    throw InputError(path, 0, "too large for a case file (above 1 MiB)");
-  std::ifstream stream(path, std::ios::binary);
-  std::ostringstream text;
-  text << stream.rdbuf();
-  // An empty file sets failbit on `text`, an unreadable one leaves `stream` closed.
-  if (!stream.is_open() || stream.bad()) throw InputError(path, 0, "cannot be read", "check its permissions");
-  return text.str();
-}
-
 }  // namespace
 
-Case parse_case(std::string_view text, const std::string& path, const std::vector<std::string>& overrides) {
+CaseDraft draft_case(std::string_view text, const std::string& path,
+                     const std::vector<std::string>& overrides) {
   CaseReader reader(path);
   reader.add_text(text);
   for (const auto& assignment : overrides) reader.add_override(assignment);
   return reader.finish();
 }
 
+Case parse_case(std::string_view text, const std::string& path, const std::vector<std::string>& overrides) {
+  auto draft = draft_case(text, path, overrides);
+  if (!draft.problems.empty()) throw InputError(std::move(draft.problems));
+  return std::move(draft.settings);
+}
+
+std::string read_case_text(const std::string& path) {
+  return read_text_file(path, "case file", largest_file);
+}
+
 Case read_case(const std::string& path, const std::vector<std::string>& overrides) {
-  return parse_case(contents(path), path, overrides);
+  return parse_case(read_case_text(path), path, overrides);
 }
 
 }  // namespace alphadot

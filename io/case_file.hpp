@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/case.hpp"
+#include "core/error.hpp"
 
 namespace alphadot {
 
@@ -19,6 +20,20 @@ Case read_case(const std::string& path, const std::vector<std::string>& override
 /// The same from text in memory; `path` serves for messages and to resolve the paths in it.
 Case parse_case(std::string_view text, const std::string& path,
                 const std::vector<std::string>& overrides = {});
+
+/// A case with all that is wrong with it by itself; keys that are wrong have their defaults.
+struct CaseDraft {
+  Case settings;
+  bool is_readable = false;  ///< as TOML
+  std::vector<Problem> problems;
+};
+
+/// What parse_case does, for whoever looks for more mistakes elsewhere before complaining.
+CaseDraft draft_case(std::string_view text, const std::string& path,
+                     const std::vector<std::string>& overrides = {});
+
+/// The text of a case file. Throws InputError. Not collective.
+std::string read_case_text(const std::string& path);
 
 /// The whole case as TOML text, defaults included. parse_case turns it back into the same Case (but for
 /// `file`), from any folder.

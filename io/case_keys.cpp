@@ -59,36 +59,39 @@ CaseKey boundary_key() {
 }
 
 std::vector<CaseKey> make_keys() {
-  const auto positive = NumberValue{.above = 0};
-  const auto count = IntegerValue{.from = 1};
+  const auto count = IntegerValue{.from = 1, .to = most_steps};
+  const auto none_or_more = IntegerValue{.from = 0, .to = most_steps};
   const auto angle = NumberValue{.from = -180, .to = 180};
+  const auto length = NumberValue{.from = 1e-9, .to = 1e9};
+  const auto point = VectorValue{.from = -1e12, .to = 1e12};
+  const auto cfl = NumberValue{.from = 1e-3, .to = 1e12};
 
   std::vector<CaseKey> keys;
   keys.push_back(make_case_key(
-      "title", [](auto& c) -> auto& { return c.title; }, TextValue{.may_be_empty = true},
+      "title", [](auto& c) -> auto& { return c.title; }, TextValue{.most = 1000, .may_be_empty = true},
       "what the case is, for people"));
 
   Table(keys, "mesh", &Case::mesh)
       .key("file", &MeshSettings::file, TextValue{}, "mesh, relative to the folder of the case file")
       .required()
-      .key("scale", &MeshSettings::scale, positive, "mesh units to the units of [reference]");
+      .key("scale", &MeshSettings::scale, length, "mesh units to the units of [reference]");
 
   Table(keys, "reference", &Case::reference)
-      .key("length", &ReferenceSettings::length, positive, "diameter or chord, for moments and rates")
-      .key("area", &ReferenceSettings::area, positive,
+      .key("length", &ReferenceSettings::length, length, "diameter or chord, for moments and rates")
+      .key("area", &ReferenceSettings::area, NumberValue{.from = 1e-18, .to = 1e18},
            "area of the whole configuration, also for a half model")
-      .key("moment_center", &ReferenceSettings::moment_center, VectorValue{},
-           "point about which moments are taken")
+      .key("moment_center", &ReferenceSettings::moment_center, point, "point about which moments are taken")
       .key("model", &ReferenceSettings::half_model, WordValue<bool>{words::model},
            "half: the mesh is the half y >= 0, forces are doubled");
 
   Table(keys, "freestream", &Case::freestream)
-      .key("mach", &FreestreamSettings::mach, positive, "Mach number")
+      .key("mach", &FreestreamSettings::mach, NumberValue{.from = 0.01, .to = 100}, "Mach number")
       .required()
       .key("alpha", &FreestreamSettings::alpha, angle, "angle of attack, degrees")
       .key("beta", &FreestreamSettings::beta, NumberValue{.from = -90, .to = 90},
            "angle of sideslip, degrees")
-      .key("gamma", &FreestreamSettings::gamma, NumberValue{.above = 1, .to = 5}, "ratio of specific heats");
+      .key("gamma", &FreestreamSettings::gamma, NumberValue{.from = 1.01, .to = 5},
+           "ratio of specific heats");
 
   keys.push_back(boundary_key());
 
@@ -107,48 +110,50 @@ std::vector<CaseKey> make_keys() {
 
   Table(keys, "steady", &Case::steady)
       .key("scheme", &SteadySettings::scheme, WordValue{words_of<SchemeKind>}, "implicit scheme")
-      .key("sweeps", &SteadySettings::sweeps, count,
+      .key("sweeps", &SteadySettings::sweeps, IntegerValue{.from = 1, .to = 100},
            "pairs of passes of the block scheme; where the flow is supersonic all but one go downstream")
       .key("krylov_directions", &SteadySettings::krylov_directions, IntegerValue{.from = 0, .to = 1000},
            "at most so many directions a step of GMRES, preconditioned by the scheme; 0: the scheme alone")
-      .key("cfl_start", &SteadySettings::cfl_start, positive, "first CFL number")
-      .key("cfl_max", &SteadySettings::cfl_max, positive, "largest CFL number")
+      .key("cfl_start", &SteadySettings::cfl_start, cfl, "first CFL number")
+      .key("cfl_max", &SteadySettings::cfl_max, cfl, "largest CFL number")
       .key("cfl_growth", &SteadySettings::cfl_growth, NumberValue{.from = 1, .to = 100},
            "growth of the CFL number")
       .key("max_iterations", &SteadySettings::max_iterations, count, "limit of iterations")
-      .key("orders", &SteadySettings::orders, NumberValue{.above = 0, .to = 16},
+      .key("orders", &SteadySettings::orders, NumberValue{.from = 0.1, .to = 16},
            "decades that the density residual must drop");
 
   Table(keys, "motion", &Case::motion)
       .key("kind", &MotionSettings::kind, WordValue{words_of<MotionKind>}, "motion after the steady state")
       .key("treatment", &MotionSettings::treatment, WordValue{words_of<TreatmentKind>},
            "how the motion enters the equations")
-      .key("amplitude", &MotionSettings::amplitude, positive,
+      .key("amplitude", &MotionSettings::amplitude, NumberValue{.from = 1e-6, .to = 180},
            "degrees of alpha, theta or phi; for step_q the reduced rate")
-      .key("reduced_frequency", &MotionSettings::reduced_frequency, positive, "omega * length / (2 V)")
-      .key("axis_point", &MotionSettings::axis_point, VectorValue{}, "rotations are about this point")
+      .key("reduced_frequency", &MotionSettings::reduced_frequency, NumberValue{.from = 1e-6, .to = 100},
+           "omega * length / (2 V)")
+      .key("axis_point", &MotionSettings::axis_point, point, "rotations are about this point")
       .default_is("reference.moment_center")
       .key("table_file", &MotionSettings::table_file, TextValue{.may_be_empty = true},
            "for kind = \"table\", relative to the folder of the case file")
-      .key("rotation", &MotionSettings::rotation, VectorValue{},
+      .key("rotation", &MotionSettings::rotation, VectorValue{.from = -10, .to = 10},
            "for kind = \"none\": steady rotation (p, q, r) * length / (2 V) at constant incidence");
 
   Table(keys, "unsteady", &Case::unsteady)
-      .key("cycles", &UnsteadySettings::cycles, positive, "duration of a harmonic motion")
-      .key("steps_per_cycle", &UnsteadySettings::steps_per_cycle, IntegerValue{.from = 4},
+      .key("cycles", &UnsteadySettings::cycles, NumberValue{.from = 0.01, .to = 1e6},
+           "duration of a harmonic motion")
+      .key("steps_per_cycle", &UnsteadySettings::steps_per_cycle, IntegerValue{.from = 4, .to = 1'000'000},
            "time steps a cycle")
-      .key("duration", &UnsteadySettings::duration, NumberValue{.from = 0},
+      .key("duration", &UnsteadySettings::duration, NumberValue{.from = 0, .to = 1e9},
            "t* = 2 V t / length of a step, ramp or table")
-      .key("steps", &UnsteadySettings::steps, IntegerValue{.from = 0}, "number of time steps in the duration")
-      .key("inner_tolerance", &UnsteadySettings::inner_tolerance, NumberValue{.above = 0, .to = 1},
+      .key("steps", &UnsteadySettings::steps, none_or_more, "number of time steps in the duration")
+      .key("inner_tolerance", &UnsteadySettings::inner_tolerance, NumberValue{.from = 1e-14, .to = 1},
            "change of the out-of-phase moment between inner iterations, relative to it")
-      .key("max_inner", &UnsteadySettings::max_inner, IntegerValue{.from = 3},
+      .key("max_inner", &UnsteadySettings::max_inner, IntegerValue{.from = 3, .to = 1'000'000},
            "limit of inner iterations a time step; fewer show no rate to judge them by");
 
   Table(keys, "derivatives", &Case::derivatives)
       .key("method", &DerivativeSettings::method, WordValue{words_of<SensitivityMethod>},
            "solver of the linear systems: GMRES, or the march of the block scheme")
-      .key("orders", &DerivativeSettings::orders, NumberValue{.above = 0, .to = 12},
+      .key("orders", &DerivativeSettings::orders, NumberValue{.from = 0.1, .to = 12},
            "decades that the preconditioned linear residual must drop")
       .key("directions", &DerivativeSettings::directions, IntegerValue{.from = 2, .to = 1000},
            "of the Krylov space of GMRES before it begins anew; 40 bytes a cell each")
@@ -167,8 +172,7 @@ std::vector<CaseKey> make_keys() {
       .key("flow", &OutputSettings::flow, FlagValue{}, "write flow.vtkhdf")
       .key("surface", &OutputSettings::surface, FlagValue{}, "write surface.vtkhdf");
 
-  const auto none_or_more = IntegerValue{.from = 0};
-  const auto minutes = NumberValue{.from = 0};
+  const auto minutes = NumberValue{.from = 0, .to = 1e7};
   Table(keys, "checkpoint", &Case::checkpoint)
       .key("minutes", &CheckpointSettings::minutes, minutes, "wall time between checkpoints; 0: not by time")
       .key("steps", &CheckpointSettings::steps, none_or_more,

@@ -17,9 +17,14 @@ namespace alphadot {
 /// One key of the case file, or a family of keys ("boundary.*": any name in that table).
 struct CaseKey {
   std::string path;  ///< "freestream.mach"
-  std::string type;  ///< for people: "number > 0"
+  struct Limits {
+    Real from, to;  ///< both allowed
+  };
+
+  std::string type;  ///< for people: "a number from 0.01 to 100"
   std::string doc;
-  std::string default_note;  ///< where the default comes from, when it is not a constant
+  std::string default_note;      ///< where the default comes from, when it is not a constant
+  std::optional<Limits> limits;  ///< of numbers, and of each of several
   bool required = false;
   bool is_text = false;  ///< takes words without quotes on the command line
 
@@ -33,6 +38,9 @@ struct CaseKey {
   std::string_view name() const { return std::string_view(path).substr(path.rfind('.') + 1); }
   bool is_family() const { return name() == "*"; }
 };
+
+/// Of the motion, of a march, between checkpoints.
+inline constexpr int most_steps = 100'000'000;
 
 /// Every key, table by table. To add one: a member in core/case.hpp and a line in case_keys.cpp.
 const std::vector<CaseKey>& case_keys();

@@ -25,7 +25,9 @@ std::string described(const toml::node& node) {
 
 /// The node as a number, integers included; NaN when it is neither.
 Real number_of(const toml::node& node) {
-  return node.is_number() ? *node.value<double>() : std::numeric_limits<Real>::quiet_NaN();
+  if (const auto* integer = node.as_integer()) return static_cast<Real>(integer->get());  // also a large one
+  if (const auto* number = node.as_floating_point()) return number->get();
+  return std::numeric_limits<Real>::quiet_NaN();
 }
 
 std::string written(Real value) {
@@ -40,17 +42,12 @@ MaybeProblem wrong_value(const std::string& expected, const toml::node& node) {
 }
 
 std::string NumberValue::type() const {
-  std::string limits;
-  if (std::isfinite(above)) limits = fmt::format(" > {}", above);
-  if (std::isfinite(from)) limits = fmt::format(" >= {}", from);
-  if (std::isfinite(to)) limits += fmt::format("{} <= {}", limits.empty() ? "" : " and", to);
-  return "a number" + limits;
+  return fmt::format("a number from {} to {}", from, to);
 }
 
 MaybeProblem NumberValue::read(const toml::node& node, Real& value) const {
   const Real number = number_of(node);
-  if (!std::isfinite(number) || number <= above || number < from || number > to)
-    return wrong_value(type(), node);
+  if (!(number >= from && number <= to)) return wrong_value(type(), node);
   value = number;
   return std::nullopt;
 }
@@ -60,11 +57,7 @@ std::string NumberValue::write(Real value) const {
 }
 
 std::string IntegerValue::type() const {
-  std::string limits;
-  if (from > std::numeric_limits<int>::min()) limits = fmt::format(" >= {}", from);
-  if (to < std::numeric_limits<int>::max())
-    limits += fmt::format("{} <= {}", limits.empty() ? "" : " and", to);
-  return "an integer" + limits;
+  return fmt::format("an integer from {} to {}", from, to);
 }
 
 MaybeProblem IntegerValue::read(const toml::node& node, int& value) const {
@@ -81,9 +74,14 @@ MaybeProblem FlagValue::read(const toml::node& node, bool& value) const {
   return std::nullopt;
 }
 
+std::string TextValue::type() const {
+  return fmt::format("text of at most {} bytes", most);
+}
+
 MaybeProblem TextValue::read(const toml::node& node, std::string& value) const {
   const auto text = node.value_exact<std::string>();
-  if (!text) return wrong_value(type(), node);
+  if (!text || text->size() > most) return wrong_value(type(), node);
+  if (text->find('\0') != std::string::npos) return Problem{"", 0, "must not hold a NUL", ""};
   if (text->empty() && !may_be_empty) return Problem{"", 0, "must not be empty", ""};
   value = *text;
   return std::nullopt;
@@ -109,14 +107,17 @@ std::string TextsValue::write(const std::vector<std::string>& value) const {
   return "[" + out + "]";
 }
 
+std::string VectorValue::type() const {
+  return fmt::format("three numbers [x, y, z] from {} to {}", from, to);
+}
+
 MaybeProblem VectorValue::read(const toml::node& node, Vec3& value) const {
   const auto* array = node.as_array();
   if (!array || array->size() != 3) return wrong_value(type(), node);
   Vec3 vector;
-  for (int i = 0; i < 3; ++i) {
-    vector[i] = number_of((*array)[static_cast<std::size_t>(i)]);
-    if (!std::isfinite(vector[i])) return wrong_value("a number", (*array)[static_cast<std::size_t>(i)]);
-  }
+  for (int i = 0; i < 3; ++i)
+    if (auto problem = NumberValue{from, to}.read((*array)[static_cast<std::size_t>(i)], vector[i]))
+      return problem;
   value = vector;
   return std::nullopt;
 }

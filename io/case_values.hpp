@@ -4,7 +4,6 @@
 
 #include <toml++/toml.h>
 
-#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -20,15 +19,13 @@ namespace alphadot {
 
 using MaybeProblem = std::optional<Problem>;
 
-/// "must be <expected>, not <the node>", e.g. "must be a number > 0, not "fast"".
+/// "must be <expected>, not <the node>", e.g. "must be a number from 0.01 to 100, not "fast"".
 MaybeProblem wrong_value(const std::string& expected, const toml::node& node);
 
 /// A finite number within limits; integers are taken as well.
 struct NumberValue {
   static constexpr bool is_text = false;
-  Real above = -std::numeric_limits<Real>::infinity();  ///< itself excluded
-  Real from = -std::numeric_limits<Real>::infinity();
-  Real to = std::numeric_limits<Real>::infinity();
+  Real from, to;
 
   std::string type() const;
   MaybeProblem read(const toml::node& node, Real& value) const;
@@ -37,8 +34,7 @@ struct NumberValue {
 
 struct IntegerValue {
   static constexpr bool is_text = false;
-  int from = std::numeric_limits<int>::min();
-  int to = std::numeric_limits<int>::max();
+  int from, to;
 
   std::string type() const;
   MaybeProblem read(const toml::node& node, int& value) const;
@@ -52,11 +48,13 @@ struct FlagValue {
   std::string write(bool value) const { return value ? "true" : "false"; }
 };
 
+/// Text without NUL, which would cut a file's name short.
 struct TextValue {
   static constexpr bool is_text = true;
+  std::size_t most = 4096;  ///< bytes
   bool may_be_empty = false;
 
-  std::string type() const { return "text"; }
+  std::string type() const;
   MaybeProblem read(const toml::node& node, std::string& value) const;
   std::string write(const std::string& value) const { return toml_string(value); }
 };
@@ -71,10 +69,12 @@ struct TextsValue {
   std::string write(const std::vector<std::string>& value) const;
 };
 
-/// Three finite numbers, [x, y, z].
+/// Three numbers within limits, [x, y, z].
 struct VectorValue {
   static constexpr bool is_text = false;
-  std::string type() const { return "three numbers [x, y, z]"; }
+  Real from, to;
+
+  std::string type() const;
   MaybeProblem read(const toml::node& node, Vec3& value) const;
   std::string write(const Vec3& value) const;
 };
@@ -122,6 +122,8 @@ CaseKey make_case_key(std::string path, At at, ValueType type, std::string doc) 
   key.type = type.type();
   key.doc = std::move(doc);
   key.is_text = ValueType::is_text;
+  if constexpr (requires { type.from; })
+    key.limits = CaseKey::Limits{static_cast<Real>(type.from), static_cast<Real>(type.to)};
   key.read = [at, type](std::string_view, const toml::node& node, Case& c) { return type.read(node, at(c)); };
   key.write = [at, type, name = std::string(key.name())](const Case& c) {
     return name + " = " + type.write(at(c)) + "\n";

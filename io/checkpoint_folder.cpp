@@ -29,6 +29,10 @@ std::optional<int> number_of(std::string_view name) {
 
 }  // namespace
 
+bool is_checkpoint_name(std::string_view name) {
+  return number_of(name).has_value();
+}
+
 CheckpointFolder::CheckpointFolder(std::string folder, int keep) : folder_(std::move(folder)), keep_(keep) {
   std::error_code error;
   for (fs::directory_iterator entry(folder_, error), end; !error && entry != end; entry.increment(error))

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "io/checkpoint.hpp"
@@ -15,6 +16,9 @@ struct RestartPoint {
   CheckpointHead head;
 };
 
+/// Whether a file's name is that of a checkpoint.
+bool is_checkpoint_name(std::string_view name);
+
 /// Numbers, finds and thins out the checkpoints of one folder. For one rank.
 class CheckpointFolder {
  public:
@@ -26,6 +30,9 @@ class CheckpointFolder {
   /// Tells of a whole new checkpoint at next_path(); older ones beyond `keep` are removed. One that cannot be
   /// removed stays.
   void added();
+
+  /// Leaves those that are there alone: they no longer count among the ones kept.
+  void leave_alone() { numbers_.clear(); }
 
   /// The newest checkpoint that is whole, with why newer ones were not taken in `rejected`. Those stay in the
   /// folder, and no longer count among the ones kept. Throws InputError with all the reasons when none is

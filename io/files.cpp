@@ -1,12 +1,20 @@
 #include "io/files.hpp"
 
 #include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
+#include <chrono>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <system_error>
+#include <thread>
 #include <utility>
 
 #include "core/error.hpp"
@@ -68,20 +76,55 @@ void sync(const std::string& path, int flags) {
 
 }  // namespace
 
-void make_run_folder(const std::string& folder) {
+FolderLock::FolderLock(const std::string& folder) : path_((fs::path(folder) / ".alphadot_lock").string()) {
   const auto refuse = [&](const std::string& reason) {
-    throw InputError(folder, 0, "the folder of the run cannot be written: " + reason,
-                     "choose another with --out DIR or output.folder");
+    throw InputError(folder, 0, reason, "choose another folder with --out DIR or output.folder");
+  };
+  const auto cannot_be_written = [&](const std::string& reason) {
+    refuse("the folder of the run cannot be written: " + reason);
   };
   std::error_code error;
   fs::create_directories(folder, error);
-  if (error) refuse(error.message());
-  if (!fs::is_directory(folder, error)) refuse("it is not a folder");
-  const std::string probe = (fs::path(folder) / ".alphadot_probe").string();
-  const int fd = open(probe.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-  if (fd < 0) refuse(std::strerror(errno));
-  close(fd);
-  fs::remove(probe, error);
+  if (error) cannot_be_written(error.message());
+  if (!fs::is_directory(folder, error)) cannot_be_written("it is not a folder");
+  // Of a run that was killed a moment ago, some rank may not be gone yet.
+  const auto patience = std::chrono::steady_clock::now() + std::chrono::seconds(3);
+  while (fd_ < 0) {
+    const int fd = open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+    if (fd < 0) cannot_be_written(std::strerror(errno));
+    const bool is_taken = flock(fd, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+    // The one before removes its file: a lock on that is none on the file that is there now.
+    struct stat locked {
+    }, there{};
+    const bool is_gone = fstat(fd, &locked) != 0 || stat(path_.c_str(), &there) != 0 ||
+                         locked.st_ino != there.st_ino || locked.st_dev != there.st_dev;
+    if (!is_taken && !is_gone) {
+      fd_ = fd;
+      break;
+    }
+    close(fd);
+    if (std::chrono::steady_clock::now() > patience) refuse("another run works in this folder");
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+}
+
+FolderLock::~FolderLock() {
+  unlink(path_.c_str());
+  close(fd_);
+}
+
+std::string read_text_file(const std::string& path, const std::string& what, std::uintmax_t most_bytes) {
+  std::error_code error;
+  if (!fs::exists(path, error)) throw InputError(path, 0, "no such " + what, "check the path");
+  if (!fs::is_regular_file(path, error)) throw InputError(path, 0, "the " + what + " is not a regular file");
+  if (fs::file_size(path, error) > most_bytes)
+    throw InputError(path, 0, fmt::format("too large for a {} (above {} MiB)", what, most_bytes / (1 << 20)));
+  std::ifstream stream(path, std::ios::binary);
+  std::ostringstream text;
+  text << stream.rdbuf();
+  // An empty file sets failbit on `text`, an unreadable one leaves `stream` closed.
+  if (!stream.is_open() || stream.bad()) throw InputError(path, 0, "cannot be read", "check its permissions");
+  return text.str();
 }
 
 Replacement::~Replacement() {
@@ -90,6 +133,7 @@ Replacement::~Replacement() {
 
 void Replacement::commit() {
   sync(temporary_, O_RDWR);
+  sync(folder_of(path_), O_RDONLY | O_DIRECTORY);  // nothing is replaced where the disk does not take it
   if (std::rename(temporary_.c_str(), path_.c_str()) != 0)
     throw InputError(path_, 0, std::string("cannot be replaced: ") + std::strerror(errno));
   sync(folder_of(path_), O_RDONLY | O_DIRECTORY);

@@ -2,6 +2,7 @@
 // ones.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <string_view>
@@ -9,9 +10,26 @@
 
 namespace alphadot {
 
-/// Makes `folder` with its parents and proves that it can be written by creating a file in it. Throws
-/// InputError with the reason and a remedy. Not collective: for one rank.
-void make_run_folder(const std::string& folder);
+/// A folder of a run: made with its parents, proved to be writable, and of one run alone for the life of the
+/// object. The lock is the kernel's, on a file in the folder: it ends with the process, however that ends,
+/// and is not there on file systems without locks. Not collective: for one rank.
+class FolderLock {
+ public:
+  /// Throws InputError with the reason and a remedy; also when another process has the folder and keeps it
+  /// for some seconds.
+  explicit FolderLock(const std::string& folder);
+  ~FolderLock();
+  FolderLock(const FolderLock&) = delete;
+  FolderLock& operator=(const FolderLock&) = delete;
+
+ private:
+  std::string path_;
+  int fd_ = -1;
+};
+
+/// The content of a regular file of at most `most_bytes`; `what` it is for messages, "case file". Throws
+/// InputError. Not collective: for one rank.
+std::string read_text_file(const std::string& path, const std::string& what, std::uintmax_t most_bytes);
 
 /// A file on its way to take the place of `path`: written at temporary(), then committed. Readers of `path`
 /// see the old file or the new one, never a part. Without a commit the temporary file is removed and `path`
@@ -24,7 +42,8 @@ class Replacement {
   Replacement& operator=(const Replacement&) = delete;
 
   const std::string& temporary() const { return temporary_; }
-  /// fsync of the file, rename, fsync of the folder. Throws InputError.
+  /// fsync of the file and of the folder, rename, fsync of the folder. Throws InputError, with the old file
+  /// in its place unless it is the last fsync that fails.
   void commit();
 
  private:

@@ -56,6 +56,8 @@ void write_info(hdf5::Group& group, const HistoryInfo& info) {
   group.set_attribute("reduced_frequency", info.motion.reduced_frequency);
   group.set_attribute("axis_point", as_vector(info.motion.axis_point));
   group.set_attribute("motion_table", info.motion.table_file);
+  group.set_attribute("motion_table_hash", info.motion_table_hash);
+  group.set_attribute("mesh_file", info.mesh_file);
   group.set_attribute("mesh_hash", info.mesh_hash);
   group.set_attribute("version", info.version);
   group.set_attribute("conventions", info.conventions);
@@ -80,6 +82,9 @@ HistoryInfo read_info(const hdf5::Group& group) {
                  .reduced_frequency = group.attribute<double>("reduced_frequency"),
                  .axis_point = read_point(group, "axis_point"),
                  .table_file = group.text_attribute("motion_table")};
+  if (group.has_attribute("motion_table_hash"))
+    info.motion_table_hash = group.text_attribute("motion_table_hash");
+  if (group.has_attribute("mesh_file")) info.mesh_file = group.text_attribute("mesh_file");
   info.mesh_hash = group.text_attribute("mesh_hash");
   info.version = group.text_attribute("version");
   info.conventions = group.text_attribute("conventions");
@@ -106,13 +111,15 @@ std::string csv_cell(const std::string& text) {
 
 }  // namespace
 
-HistoryInfo history_info(const Case& c, const std::string& mesh_hash) {
+HistoryInfo history_info(const Case& c, const std::string& mesh_hash, const std::string& motion_table_hash) {
   HistoryInfo info;
   info.title = c.title;
   info.reference = c.reference;
   info.freestream = c.freestream;
   info.motion = c.motion;
+  info.mesh_file = c.mesh.file;
   info.mesh_hash = mesh_hash;
+  info.motion_table_hash = motion_table_hash;
   info.version = provenance(1).version;
   info.case_text = resolved_case(c);
   return info;
@@ -184,6 +191,7 @@ History History::read(const hdf5::Group& group) {
 std::string History::csv() const {
   std::string text;
   if (names_.empty()) return text;
+  text += "# Flow: " + info.origin().text() + '\n';
   if (!info.status.empty()) text += "# Status: " + info.status + '\n';
   for (std::size_t i = 0; i < names_.size(); ++i) text += (i ? "," : "") + csv_cell(names_[i]);
   text += '\n';

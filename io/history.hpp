@@ -8,6 +8,7 @@
 
 #include "core/case.hpp"
 #include "io/hdf5.hpp"
+#include "io/provenance.hpp"
 
 namespace alphadot {
 
@@ -17,20 +18,24 @@ struct HistoryInfo {
   ReferenceSettings reference;
   FreestreamSettings freestream;
   MotionSettings motion;
-  std::string mesh_hash;
-  std::string version;    ///< of the program that wrote it
-  std::string case_text;  ///< the resolved case
-  std::string status;     ///< how the run ended, and what was not reached; empty: not known
+  std::string mesh_file, mesh_hash;
+  std::string motion_table_hash;  ///< of the table's content; empty: there is none
+  std::string version;            ///< of the program that wrote it
+  std::string case_text;          ///< the resolved case
+  std::string status;             ///< how the run ended, and what was not reached; empty: not known
   /// How to read the columns.
   std::string conventions =
       "mesh axes x aft, y starboard, z up; CA CY CN along them over q S; Cl Cm Cn over q S length about body "
       "axes x forward, y starboard, z down (nose up, nose to starboard positive); angles in rad; t_star = 2 "
       "V t / "
       "length; rates times length / (2 V)";
+
+  Origin origin() const { return {freestream, mesh_file, mesh_hash, version}; }
 };
 
 /// The info of a case.
-HistoryInfo history_info(const Case& c, const std::string& mesh_hash);
+HistoryInfo history_info(const Case& c, const std::string& mesh_hash,
+                         const std::string& motion_table_hash = "");
 
 /// Columns by convention: step, time, t_star, alpha, theta, q, inner_iterations, inner_residual, and for each
 /// component (total, body, fins ...) total/CA total/CY total/CN total/Cl total/Cm total/Cn. In a file the
@@ -59,8 +64,8 @@ class History {
   /// Reads back such a group. Throws InputError when it is not one, of another version, or damaged.
   static History read(const hdf5::Group& group);
 
-  /// A comment with the status (if known), a line of names, then a line a step, all digits; empty when there
-  /// are none.
+  /// Comments with origin and status (if known), a line of names, then a line a step, all digits; empty when
+  /// there are none.
   std::string csv() const;
   std::string csv_row(std::size_t step) const;
 

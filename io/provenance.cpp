@@ -6,7 +6,10 @@
 #include <mpi.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <cctype>
 #include <ctime>
+#include <filesystem>
 #include <fstream>
 
 #include "build_info.hpp"
@@ -43,6 +46,15 @@ std::string host_name() {
 }
 
 }  // namespace
+
+std::string Origin::text() const {
+  std::string name = std::filesystem::path(mesh_file).filename().string();
+  std::ranges::replace_if(
+      name, [](unsigned char c) { return std::iscntrl(c) != 0; }, '?');
+  return fmt::format("Mach {}, alpha {} deg, beta {} deg, gamma {}; mesh {}, hash {}; alphadot {}",
+                     freestream.mach, freestream.alpha, freestream.beta, freestream.gamma, name, mesh_hash,
+                     version);
+}
 
 Provenance provenance(int ranks) {
   return {.version = build_info::version,

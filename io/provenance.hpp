@@ -3,7 +3,20 @@
 
 #include <string>
 
+#include "core/case.hpp"
+
 namespace alphadot {
+
+/// Which flow the numbers of a file are of, and what computed them.
+struct Origin {
+  FreestreamSettings freestream;
+  std::string mesh_file, mesh_hash;
+  std::string version;  ///< of alphadot
+
+  /// On one line: "Mach 2, alpha 1.5 deg, beta 0 deg, gamma 1.4; mesh box.msh, hash 0123456789abcdef;
+  /// alphadot 0.1.0".
+  std::string text() const;
+};
 
 struct Provenance {
   std::string version;       ///< of alphadot, "0.1.0"

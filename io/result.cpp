@@ -46,6 +46,7 @@ Json json_of(const Result& r) {
       {"message", r.message},
       {"not_reached", r.not_reached},
       {"title", r.title},
+      {"verb", r.verb},
       {"ranks", source.ranks},
       {"mesh",
        {{"file", r.mesh.file}, {"cells", r.mesh.cells}, {"points", r.mesh.points}, {"hash", r.mesh.hash}}},
@@ -101,7 +102,9 @@ Json json_of(const Result& r) {
         {"hdf5", source.hdf5_version},
         {"cpu", source.cpu},
         {"host", source.host},
-        {"date", source.date}}}};
+        {"date", source.date}}},
+      {"motion_table_hash", r.motion_table_hash},
+      {"case", r.case_text}};
 }
 
 }  // namespace

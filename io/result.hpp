@@ -72,6 +72,9 @@ struct Result {
   std::string message;                   ///< why it ended so; may be empty
   std::vector<std::string> not_reached;  ///< what was asked for and not reached
   std::string title;
+  std::string verb;               ///< that asked for it
+  std::string case_text;          ///< resolved
+  std::string motion_table_hash;  ///< of the table's content; empty: there is none
   MeshResult mesh;
   ConfigurationResult configuration;
   ReferenceSettings reference;

@@ -1,5 +1,6 @@
 #include "io/seal.hpp"
 
+#include <fmt/format.h>
 #include <xxhash.h>
 
 #include <algorithm>
@@ -47,6 +48,10 @@ std::uint64_t size_of(const std::string& path) {
 }
 
 }  // namespace
+
+std::string content_hash(std::string_view content) {
+  return fmt::format("{:016x}", XXH64(content.data(), content.size(), 0));
+}
 
 void seal_file(const std::string& path) {
   Seal seal;

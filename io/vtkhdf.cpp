@@ -4,6 +4,7 @@
 #include <array>
 #include <optional>
 #include <stdexcept>
+#include <utility>
 
 #include "io/files.hpp"
 #include "io/hdf5.hpp"
@@ -26,11 +27,17 @@ struct GridPart {
 /// A VTKHDF file open on the root, written by all ranks together. Every function is collective.
 class VtkHdfFile {
  public:
-  VtkHdfFile(const std::string& path, const Communicator& comm) : comm_(comm) {
+  VtkHdfFile(const std::string& path, const Origin& origin, const Communicator& comm) : comm_(comm) {
     comm_.on_root([&] {
       replacement_.emplace(path);
       file_.emplace(hdf5::File::create(replacement_->temporary()));
       create_vtk_group(*file_);
+      auto data = file_->create_group("VTKHDF/FieldData");
+      data.set_attribute("origin", origin.text());
+      const auto& stream = origin.freestream;
+      for (const auto& [name, value] :
+           {std::pair{"mach", stream.mach}, std::pair{"alpha", stream.alpha}, std::pair{"beta", stream.beta}})
+        data.write(name, std::vector<Real>{value});
     });
   }
 
@@ -106,9 +113,9 @@ class VtkHdfFile {
 }  // namespace
 
 void write_flow(const std::string& path, const Subdomain& domain, const std::vector<VtkField>& fields,
-                const Communicator& comm) {
+                const Origin& origin, const Communicator& comm) {
   const auto cells = static_cast<std::size_t>(domain.owned_cells);
-  VtkHdfFile file(path, comm);
+  VtkHdfFile file(path, origin, comm);
   file.write_grid({.points = std::span(domain.points).first(static_cast<std::size_t>(domain.owned_points)),
                    .corners = {domain.cell_points.data()->data(), 4 * cells},
                    .corners_per_cell = 4,
@@ -118,7 +125,7 @@ void write_flow(const std::string& path, const Subdomain& domain, const std::vec
 }
 
 void write_surface(const std::string& path, const Subdomain& domain, const std::vector<VtkField>& fields,
-                   const Communicator& comm) {
+                   const Origin& origin, const Communicator& comm) {
   std::vector<Index> surface_id(domain.points.size(), -1), corners;
   std::vector<Vec3> points;
   std::vector<std::int32_t> patches;
@@ -136,7 +143,7 @@ void write_surface(const std::string& path, const Subdomain& domain, const std::
   std::string names;
   for (const auto& name : domain.patch_names) names += name + "\n";
 
-  VtkHdfFile file(path, comm);
+  VtkHdfFile file(path, origin, comm);
   file.write_grid({.points = points, .corners = corners, .corners_per_cell = 3, .vtk_type = vtk_triangle});
   file.write_values<std::int32_t>("CellData/patch", patches, 0);
   file.set_attribute("CellData/patch", "names", names);

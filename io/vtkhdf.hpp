@@ -9,6 +9,7 @@
 #include "core/communicator.hpp"
 #include "core/types.hpp"
 #include "core/vec3.hpp"
+#include "io/provenance.hpp"
 #include "partition/subdomain.hpp"
 
 namespace alphadot {
@@ -29,14 +30,15 @@ struct VtkField {
 
 /// Writes the owned cells of all ranks with their fields ([owned_cells] values each, or more: ghosts are left
 /// out), in the order of ranks; points on the cuts between ranks appear once a rank. Reals become 32-bit
-/// floats. Through a temporary file. Collective; every rank gives the same fields. Throws InputError on every
-/// rank.
+/// floats. The origin is in the group FieldData: mach, alpha and beta as numbers, all of it as its attribute
+/// "origin". Through a temporary file. Collective; every rank gives the same fields. Throws InputError on
+/// every rank.
 void write_flow(const std::string& path, const Subdomain& domain, const std::vector<VtkField>& fields,
-                const Communicator& comm);
+                const Origin& origin, const Communicator& comm);
 
 /// The same for the boundary faces ([boundary_faces] values in each field), with the integer field "patch":
 /// the index into Subdomain::patch_names, which are its attribute "names", one a line.
 void write_surface(const std::string& path, const Subdomain& domain, const std::vector<VtkField>& fields,
-                   const Communicator& comm);
+                   const Origin& origin, const Communicator& comm);
 
 }  // namespace alphadot

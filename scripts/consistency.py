@@ -67,7 +67,7 @@ def run(program: str, verb: str, case: str, settings: dict[str, object], out: Pa
     words = []
     for key, value in {"output.flow": "false", "output.surface": "false", **settings}.items():
         words += ["--set", f"{key}={value}"]
-    done = subprocess.run([program, verb, str(CASES / case), "--out", str(out), "--quiet", *words], capture_output=True, text=True)
+    done = subprocess.run([program, verb, str(CASES / case), "--out", str(out), "--overwrite", "--quiet", *words], capture_output=True, text=True)
     if done.returncode == 1:
         return None
     return json.loads((out / "result.json").read_text())

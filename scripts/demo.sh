@@ -23,12 +23,12 @@ step "Mesh of the half model"
 /usr/bin/python3 $case/mesh.py --level coarse --output $case/coarse.msh
 
 step "Mach 2.5: steady flow, then one and a half cycles of plunge at k = 0.01, on $ranks ranks"
-alphadot run $case/plunge.toml --out $runs/plunge
+alphadot run $case/plunge.toml --out $runs/plunge --overwrite
 
 step "Five Mach numbers: derivatives for k -> 0, by linear solves about the steady flow"
 for mach in 1.58 1.75 1.89 2.10 2.50; do
   echo "Mach $mach (after $SECONDS s)"
-  alphadot derivatives $case/derivatives.toml --set freestream.mach=$mach --out $runs/mach_$mach --quiet
+  alphadot derivatives $case/derivatives.toml --set freestream.mach=$mach --out $runs/mach_$mach --overwrite --quiet
 done
 
 step "Beside the paper"

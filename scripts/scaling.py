@@ -122,7 +122,7 @@ def run(arguments: argparse.Namespace, mesh: Path, ranks: int, most_iterations: 
         settings.append(f"steady.max_iterations={most_iterations}")
     overrides = [part for setting in [*settings, *arguments.set] for part in ("--set", setting)]
     launcher = ["mpirun", "-n", str(ranks)] if ranks > 1 else []
-    command = [*launcher, str(arguments.program.resolve()), "run", str(arguments.case), "--out", str(folder), "--quiet", *overrides]
+    command = [*launcher, str(arguments.program.resolve()), "run", str(arguments.case), "--out", str(folder), "--overwrite", "--quiet", *overrides]
     environment = {**os.environ, "OMPI_MCA_rmaps_base_oversubscribe": "1"}
     done = subprocess.run(command, capture_output=True, text=True, env=environment)
     if done.returncode != 0:

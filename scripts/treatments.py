@@ -67,7 +67,7 @@ def call(arguments: argparse.Namespace, folder: Path, *options: str) -> None:
     """`alphadot run CASE` in `folder`."""
     launcher = ["mpirun", "-n", str(arguments.ranks)] if arguments.ranks > 1 else []
     overrides = [part for setting in arguments.set for part in ("--set", setting)]
-    command = [*launcher, arguments.program, "run", arguments.case, "--out", folder, "--quiet", *overrides, *options]
+    command = [*launcher, arguments.program, "run", arguments.case, "--out", folder, "--overwrite", "--quiet", *overrides, *options]
     done = subprocess.run(command, text=True, stderr=subprocess.PIPE, env={**os.environ, "OMPI_MCA_rmaps_base_oversubscribe": "1"})
     if done.returncode != 0:
         sys.exit(f"treatments.py: {' '.join(map(str, command))} failed:\n{done.stderr}")

@@ -113,7 +113,7 @@ class Runner:
     def command(self, run: Run) -> list[str]:
         mesh = mesh_file(run)
         settings = run.settings | ({"mesh.file": str(mesh)} if mesh else {})
-        command = [str(self.program), run.verb, str(run.case), "--out", str(run.folder)]
+        command = [str(self.program), run.verb, str(run.case), "--out", str(run.folder), "--overwrite"]
         command += [word for key, value in settings.items() for word in ("--set", f"{key}={toml_text(value)}")]
         if checkpoints(run):
             command.append("--restart")

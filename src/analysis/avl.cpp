@@ -98,7 +98,8 @@ std::string header(const FlightPoint& point) {
   const Vec3& center = reference.moment_center;
   std::string out(rule);
   out += " alphadot: inviscid stability derivatives in the format of AVL\n\n";
-  out += fmt::format(" Configuration: {}\n", on_one_line(point.title));
+  out += fmt::format(" Configuration: {}{}{}\n", on_one_line(point.title),
+                     point.title.empty() || point.origin.empty() ? "" : "; ", on_one_line(point.origin));
   // Three lines, as AVL has of its surfaces, strips and vortices.
   out += fmt::format(
       "    {}{}\n",

@@ -14,6 +14,7 @@ struct FlightPoint {
   FreestreamSettings freestream;
   Coefficients steady;        ///< on body axes
   DerivativeSet derivatives;  ///< on body axes, about reference.moment_center
+  std::string origin = "";    ///< flow, mesh and program, on one line
   std::string status = "";    ///< of the run that computed them, and what was not reached
 };
 

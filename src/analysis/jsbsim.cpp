@@ -63,11 +63,11 @@ std::string function(const std::string& name, int coefficient, const std::string
       name, scale, factors, value);
 }
 
-/// As a line of the comment, which must not hold two hyphens in a row.
-std::string status_text(std::string status) {
-  if (status.empty()) return "";
-  for (std::size_t at; (at = status.find("--")) != std::string::npos;) status.insert(at + 1, " ");
-  return fmt::format("\n       Status: {}.", status);
+/// "label text" as a line of the comment, which must not hold two hyphens in a row.
+std::string comment_line(const std::string& label, std::string text) {
+  if (text.empty()) return "";
+  for (std::size_t at; (at = text.find("--")) != std::string::npos;) text.insert(at + 1, " ");
+  return fmt::format("\n       {}: {}.", label, text);
 }
 
 /// Where the normal force that goes with alpha acts.
@@ -90,9 +90,10 @@ std::string jsbsim_aerodynamics(const FlightPoint& point) {
       "       Needs in the vehicle's metrics, in the mesh's unit: chord {:g}, wingarea {:g}, AERORP at "
       "({:g}, {:g}, "
       "{:g});\n"
-      "       the centre of gravity should be there too, for the rates are about it.{}{} -->\n",
+      "       the centre of gravity should be there too, for the rates are about it.{}{}{} -->\n",
       point.freestream.mach, point.freestream.alpha, point.freestream.beta, reference.length, reference.area,
-      center.x, center.y, center.z, neutral_point_text(point), status_text(point.status));
+      center.x, center.y, center.z, neutral_point_text(point), comment_line("Flow", point.origin),
+      comment_line("Status", point.status));
   for (int c = 0; c < Coefficients::size(); ++c) {
     const std::string coefficient(coefficient_names[static_cast<std::size_t>(c)]);
     out += fmt::format("  <axis name=\"{}\">\n", axis_names[static_cast<std::size_t>(c)]);

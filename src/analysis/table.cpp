@@ -63,6 +63,7 @@ std::string head_text(const TableHead& head, Axes axes) {
       "Axes: {}\n"
       "Units: per rad; rates times length / 2V\n",
       reference.length, reference.area, center.x, center.y, center.z, axes_text);
+  if (!head.origin.empty()) out += "Flow: " + head.origin + "\n";
   if (!head.status.empty()) out += "Status: " + head.status + "\n";
   if (!head.uncertainty.empty()) out += "Uncertainty: " + head.uncertainty + "\n";
   return out;

@@ -31,6 +31,7 @@ struct TableHead {
   ReferenceSettings reference;
   std::string status = "";       ///< of the run, and what was not reached; empty: not known
   std::string uncertainty = "";  ///< its scope; empty: not known
+  std::string origin = "";       ///< flow, mesh and program; empty: not known
 };
 
 /// A row for each entry of the set, column by column; what symmetry makes exactly zero is left out. The parts
@@ -41,7 +42,7 @@ std::vector<TableRow> rows_of(const DerivativeSet& derivatives, const std::strin
                               const std::set<Variable>& unconverged = {});
 
 /// What every number refers to: reference length and area, moment centre, axes, normalisation of rates;
-/// status and scope of the uncertainties where they are known.
+/// origin, status and scope of the uncertainties where they are known.
 std::string head_text(const TableHead& head, Axes axes = Axes::body);
 
 /// Aligned lines "name value ± uncertainty method" below the head, with a column for each part of the

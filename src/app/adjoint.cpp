@@ -123,7 +123,8 @@ void write_fields(const FlowCase& flow, const std::vector<Functional>& functiona
     fields.emplace_back(name + "_by_momentum", parts[i].momentum);
     fields.emplace_back(name + "_by_energy", parts[i].energy);
   }
-  write_flow(flow.folder() + "/adjoint.vtkhdf", flow.setup().domain, fields, flow.communicator());
+  write_flow(flow.folder() + "/adjoint.vtkhdf", flow.setup().domain, fields, flow.origin(),
+             flow.communicator());
 }
 
 /// What the place of every point of the walls does to the loads: vectors per area for ParaView, numbers a
@@ -142,9 +143,9 @@ void write_surface_sensitivity(FlowCase& flow, const std::vector<Functional>& fu
                                solver.by_points(adjoints.at(functional), weights));
   }
   if (names.empty()) return;
-  std::string csv =
-      "# derivatives by the place of the walls' points, those inside held; lengths in mesh "
-      "units\npoint,x,y,z";
+  std::string csv = "# Flow: " + flow.origin().text() +
+                    "\n# derivatives by the place of the walls' points, those inside held; lengths in mesh "
+                    "units\npoint,x,y,z";
   for (std::size_t i = 0; i < names.size(); ++i) {
     fields.emplace_back(names[i] + "_by_place", sensitivities[i].density());
     csv += fmt::format(",{0}_by_x,{0}_by_y,{0}_by_z", names[i]);
@@ -157,7 +158,8 @@ void write_surface_sensitivity(FlowCase& flow, const std::vector<Functional>& fu
       csv += fmt::format(",{:.9g},{:.9g},{:.9g}", by.x, by.y, by.z);
     }
   }
-  write_surface(flow.folder() + "/surface_sensitivity.vtkhdf", domain, fields, flow.communicator());
+  write_surface(flow.folder() + "/surface_sensitivity.vtkhdf", domain, fields, flow.origin(),
+                flow.communicator());
   flow.communicator().on_root(
       [&] { replace_file_with(flow.folder() + "/surface_sensitivity.csv", csv + "\n"); });
 }
@@ -180,7 +182,7 @@ bool has_shape(const Case& settings) {
 RunStatus adjoint_verb(const CaseArguments& arguments, const std::vector<std::string>& of,
                        const Communicator& comm) {
   const SignalListener signals;
-  FlowCase flow(arguments, comm);
+  FlowCase flow(arguments, "adjoint", comm);
   check_scheme(flow.settings());
   const auto functionals = functionals_of(of, flow.settings());
   check_steady_restart(flow);

@@ -34,7 +34,17 @@ Case check_belongs(const RestartPoint& point, const Setup& setup) {
                                  setup.mesh.file, setup.mesh.hash),
                      "restart with the mesh that the checkpoint was made with");
   Case before = parse_case(info.case_text, point.path);
-  auto problems = contradictions(before, setup.settings, point.head.phase == "motion");
+  const bool in_motion = point.head.phase == "motion";
+  std::vector<Problem> problems;
+  for (const auto& [key, there, here] :
+       differences(before, setup.settings, in_motion ? Shared::steps : Shared::flow))
+    problems.push_back({setup.settings.file, 0,
+                        fmt::format("{} is {}, but the checkpoint was made with {}", key, here, there),
+                        "restore the key, or run without --restart in another folder"});
+  if (in_motion && info.motion_table_hash != setup.motion_table_hash)
+    problems.push_back({setup.settings.motion.table_file, 0,
+                        "the table has other content than when the checkpoint was made",
+                        "restore the table, or run without --restart in another folder"});
   if (!problems.empty()) throw InputError(std::move(problems));
   return before;
 }
@@ -52,6 +62,10 @@ Checkpoints::Checkpoints(const Setup& setup, std::string folder, std::string sto
       last_asked_(since_start.wall()),
       last_save_(since_start.wall()) {
   comm_.on_root([&] { in_folder_.emplace(folder_, setup_.settings.checkpoint.keep); });
+}
+
+void Checkpoints::leave_others_alone() {
+  if (in_folder_) in_folder_->leave_alone();
 }
 
 void Checkpoints::begin_from(const std::string& file) {
@@ -76,7 +90,7 @@ void Checkpoints::begin_from(const std::string& file) {
     point.head = read_checkpoint_head(point.path);
     case_before_ = check_belongs(point, setup_);
   });
-  const auto info = history_info(setup_.settings, setup_.mesh.hash);
+  const auto info = history_info(setup_.settings, setup_.mesh.hash, setup_.motion_table_hash);
   if (point.head.history.info.version != info.version)
     spdlog::warn("{} was written by alphadot {}: the run goes on, but not bit for bit", point.path,
                  point.head.history.info.version);

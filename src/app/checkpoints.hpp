@@ -26,6 +26,9 @@ class Checkpoints {
   Checkpoints(const Setup& setup, std::string folder, std::string stop_folder, const Timer& since_start,
               const Communicator& comm);
 
+  /// Leaves checkpoints of another flow in the folder alone.
+  void leave_others_alone();
+
   /// Chooses where the run begins: `file`, or with an empty name the newest whole checkpoint of the folder;
   /// without any there, the beginning. Collective. Throws InputError on every rank when there is no whole
   /// one, or when it belongs to another mesh or a contradicting case.

@@ -41,7 +41,8 @@ std::vector<std::unique_ptr<FlowCase>> coarser_cases(const CaseArguments& argume
   for (std::size_t i = 0; i < files.size(); ++i) {
     const auto& finer = out.empty() ? finest : *out.back();
     try {
-      auto coarser = std::make_unique<FlowCase>(on_mesh(arguments, finest, i), finest.communicator());
+      auto coarser =
+          std::make_unique<FlowCase>(on_mesh(arguments, finest, i), "derivatives", finest.communicator());
       const auto fine = finer.setup().mesh.cells, coarse = coarser->setup().mesh.cells;
       if (refinement_ratio(fine, coarse) < least_refinement_ratio)
         throw InputError(finest.settings().file, 0,

@@ -46,7 +46,8 @@ void write_tables(const FlowCase& flow, RunStatus end, const EstimatedDerivative
   const auto head = flow.table_head(end, rows);
   const FlightPoint point{settings.title,      settings.reference,
                           settings.freestream, coefficients(flow.steady_report().total, settings),
-                          derivatives,         head.status};
+                          derivatives,         head.origin,
+                          head.status};
   const std::string stem = flow.folder() + "/derivatives";
   replace_file_with(stem + ".csv", derivative_csv(rows, head));
   const auto stability =
@@ -204,11 +205,11 @@ std::optional<std::vector<MeshDerivatives>> complete_coarser(FlowCase& finest,
 
 RunStatus derivatives_verb(const CaseArguments& arguments, const Communicator& comm) {
   const SignalListener signals;
-  FlowCase flow(arguments, comm);
+  FlowCase flow(arguments, "derivatives", comm);
   check_steady_restart(flow);
-  flow.announce();
   auto levels = coarser_cases(arguments, flow);
   for (const auto& level : levels) check_steady_restart(*level);
+  flow.announce();
   const std::size_t meshes = levels.size() + 1;
 
   const Timer timer;

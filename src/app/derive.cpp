@@ -21,7 +21,8 @@ RunStatus derive_verb(const std::string& history_file, Real center_x, const Comm
       reference.moment_center.x = center_x;
     }
     const auto rows = rows_of(estimated.derivatives, method, Axes::body, estimated.parts);
-    fmt::print("{}", derivative_table(rows, {reference, history.info.status, uncertainty_scope(rows)}));
+    fmt::print("{}", derivative_table(rows, {reference, history.info.status, uncertainty_scope(rows),
+                                             history.info.origin().text()}));
   });
   return RunStatus::completed;
 }

@@ -46,10 +46,13 @@ std::string run_folder(const CaseArguments& arguments, const Case& settings) {
 }
 
 /// The folder is made before the mesh is read, so that a run that cannot write ends at once.
-Setup prepare(const CaseArguments& arguments, const Communicator& comm) {
+Setup prepare(const CaseArguments& arguments, const std::string& verb, std::unique_ptr<RunFolder>& folder,
+              const Communicator& comm) {
   const Case settings = load_case(arguments.case_file, arguments.overrides, comm);
-  comm.on_root([&] { make_run_folder(run_folder(arguments, settings)); });
-  return load_setup(settings, comm);
+  comm.on_root([&] { folder = std::make_unique<RunFolder>(run_folder(arguments, settings)); });
+  Setup out = load_setup(settings, comm);
+  comm.on_root([&] { folder->admit(out, verb, arguments.may_overwrite); });
+  return out;
 }
 
 /// Limits of the CFL number, beside the case's own, for flows that bold steps drive into vacuum (strong
@@ -92,16 +95,19 @@ NamedValues named(const Coefficients& coefficients) {
   return out;
 }
 
-FlowCase::FlowCase(const CaseArguments& arguments, const Communicator& comm)
+FlowCase::FlowCase(const CaseArguments& arguments, std::string verb, const Communicator& comm)
     : comm_(comm),
-      setup_(prepare(arguments, comm)),
+      verb_(std::move(verb)),
+      setup_(prepare(arguments, verb_, run_folder_, comm)),
       folder_(run_folder(arguments, setup_.settings)),
+      holds_result_(comm.any(run_folder_ && run_folder_->holds_result())),
+      origin_(history_info(setup_.settings, setup_.mesh.hash).origin()),
       checkpoints_(setup_, folder_, arguments.stop_folder.empty() ? folder_ : arguments.stop_folder, timer_,
                    comm),
-      progress_(setup_.settings, folder_, comm.is_root()),
+      progress_(setup_.settings, origin_, folder_, comm.is_root()),
       discretization_(setup_.domain, setup_.patch_kinds, setup_.settings.space,
                       setup_.settings.freestream.gamma),
-      motion_(make_motion(setup_.settings, comm)),
+      motion_(make_motion(setup_)),
       iteration_(
           discretization_, comm,
           make_linear_solver(discretization_, comm, setup_.settings.steady, pass_order(motion_.wind().x)),
@@ -119,6 +125,7 @@ FlowCase::FlowCase(const CaseArguments& arguments, const Communicator& comm)
   if (!excluded.empty()) spdlog::info("left out of the forces: {}", fmt::join(excluded, ", "));
   iteration_.take_along(checkpoints_.reduction());
   if (arguments.restart) checkpoints_.begin_from(*arguments.restart);
+  if (run_folder_ && run_folder_->holds_other()) checkpoints_.leave_others_alone();
 }
 
 Conditions<Real> FlowCase::conditions() const {
@@ -165,7 +172,7 @@ CheckpointHead FlowCase::checkpoint_head(std::string phase) const {
   out.phase = std::move(phase);
   out.message = message_;
   for (const auto& shortfall : shortfalls_) out.message += not_reached_mark + shortfall;
-  out.history.info = history_info(settings(), setup_.mesh.hash);
+  out.history.info = history_info(settings(), setup_.mesh.hash, setup_.motion_table_hash);
   out.numbers["limiter_is_frozen"] = {iteration_.limiter_is_frozen() ? 1.0 : 0.0};
   out.numbers["limiter_threshold"] = {discretization_.space().limiter_threshold};
   out.numbers["steady_loads"] = numbers_of(steady_report_.loads);
@@ -306,14 +313,15 @@ RunStatus FlowCase::status_of(RunStatus end) const {
 TableHead FlowCase::table_head(RunStatus end, std::span<const TableRow> rows) const {
   std::string status = to_string(status_of(end));
   if (!shortfalls_.empty()) status += fmt::format(": {}", fmt::join(shortfalls_, "; "));
-  return {settings().reference, status, uncertainty_scope(rows)};
+  return {settings().reference, status, uncertainty_scope(rows), origin_.text()};
 }
 
 void FlowCase::report_divergence(const DivergedError& error) {
   constexpr std::size_t listed = 50;
   const auto cells = iteration_.worst_cells(listed);
   std::string table =
-      "# cells whose density changes fastest, worst first; 1e300: the residual is not a number\n"
+      "# Flow: " + origin_.text() +
+      "\n# cells whose density changes fastest, worst first; 1e300: the residual is not a number\n"
       "cell,x,y,z,change\n";
   for (const auto& [id, at, change] : cells)
     table += fmt::format("{},{:.9g},{:.9g},{:.9g},{:.6g}\n", id, at.x, at.y, at.z, change);
@@ -373,6 +381,9 @@ Result FlowCase::result(RunStatus end, std::span<const TableRow> derivatives) co
   if (out.status == RunStatus::unconverged)
     out.message += fmt::format("{}{}", message_.empty() ? "" : "; ", fmt::join(shortfalls_, "; "));
   out.title = settings().title;
+  out.verb = verb_;
+  out.case_text = resolved_case(settings());
+  out.motion_table_hash = setup_.motion_table_hash;
   out.mesh = setup_.mesh;
   out.configuration = configuration_result(setup_);
   out.reference = settings().reference;
@@ -394,7 +405,12 @@ Result FlowCase::result(RunStatus end, std::span<const TableRow> derivatives) co
   return out;
 }
 
+bool FlowCase::keeps_result_of_before(RunStatus end) const {
+  return holds_result_ && !is_finished(end);
+}
+
 void FlowCase::announce(RunStatus status, std::string message) const {
+  if (keeps_result_of_before(status)) return;
   Result out = result(status);
   out.message = std::move(message);
   out.forces.clear();
@@ -402,10 +418,13 @@ void FlowCase::announce(RunStatus status, std::string message) const {
 }
 
 void FlowCase::write(const Result& result) const {
-  if (result.status != RunStatus::interrupted) write_pictures(folder_, setup_, iteration_, comm_);
+  if (keeps_result_of_before(result.status)) return;
+  if (result.status != RunStatus::interrupted) write_pictures(folder_, setup_, iteration_, origin_, comm_);
   comm_.on_root([&] {
-    replace_file_with(folder_ + "/case.toml", resolved_case(settings()));
+    replace_file_with(fmt::format("{}/{}", folder_, resolved_case_name),
+                      fmt::format("# {}\n{}", origin_.text(), result.case_text));
     write_result(folder_ + "/result.json", result);
+    if (is_finished(result.status)) run_folder_->remove_stale(checkpoints_.restart() != nullptr);
   });
 }
 
@@ -430,6 +449,8 @@ void FlowCase::print_end(const Result& result) const {
   std::fflush(stdout);
   if (result.status == RunStatus::unconverged)
     spdlog::warn("not converged: {}; written to {}", result.message, folder_);
+  else if (keeps_result_of_before(result.status))
+    spdlog::warn("{}; the finished result of before is left in {}", to_string(result.status), folder_);
   else
     spdlog::info("{}; written to {}", to_string(result.status), folder_);
 }

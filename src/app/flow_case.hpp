@@ -9,6 +9,7 @@
 #include "analysis/coefficients.hpp"
 #include "app/checkpoints.hpp"
 #include "app/progress.hpp"
+#include "app/run_folder.hpp"
 #include "app/setup.hpp"
 #include "app/verbs.hpp"
 #include "core/error.hpp"
@@ -22,9 +23,9 @@ namespace alphadot {
 /// Mesh, solver and steady flow of one case on this rank.
 class FlowCase {
  public:
-  /// Reads case and mesh, makes the run's folder, chooses the checkpoint to begin from. Collective. Throws
-  /// InputError on every rank.
-  FlowCase(const CaseArguments& arguments, const Communicator& comm);
+  /// Reads case and mesh, makes and locks the run's folder, chooses the checkpoint to begin from. Collective.
+  /// Throws InputError on every rank.
+  FlowCase(const CaseArguments& arguments, std::string verb, const Communicator& comm);
 
   const Case& settings() const { return setup_.settings; }
   const Setup& setup() const { return setup_; }
@@ -63,6 +64,8 @@ class FlowCase {
   const std::vector<std::string>& shortfalls() const { return shortfalls_; }
   /// The status with which a run that came to this end ends, shortfalls included.
   RunStatus status_of(RunStatus end) const;
+  /// Which flow the numbers are of, and what computes them.
+  const Origin& origin() const { return origin_; }
   /// What stands above the tables of a run that came to this end.
   TableHead table_head(RunStatus end, std::span<const TableRow> rows) const;
 
@@ -72,10 +75,14 @@ class FlowCase {
 
   /// Everything in result.json of a run that came to this end, with the derivatives of a table. Collective.
   Result result(RunStatus end, std::span<const TableRow> derivatives = {}) const;
-  /// Writes a result.json without results: by default what stands there when the run is killed. Collective.
+  /// Whether a run that came to this end leaves a finished result of before in its place: it has none itself.
+  bool keeps_result_of_before(RunStatus end) const;
+  /// Writes a result.json without results, by default what stands there when the run is killed; where there
+  /// is no finished one. Collective.
   void announce(RunStatus status = RunStatus::interrupted,
                 std::string message = "the run has not ended, or was killed") const;
-  /// Writes pictures (but when interrupted), resolved case and result.json. Collective.
+  /// Writes pictures (but when interrupted), resolved case and result.json, and removes what is none of this
+  /// run's; nothing where the result of before is kept. Collective.
   void write(const Result& result) const;
   /// What the run has found, on standard output (unless quiet), and what it cost, in the log.
   void print(const Result& result, std::span<const TableRow> derivatives) const;
@@ -92,8 +99,12 @@ class FlowCase {
 
   const Communicator& comm_;
   Timer timer_;
+  std::string verb_;
+  std::unique_ptr<RunFolder> run_folder_;  ///< on the root
   Setup setup_;
   std::string folder_;
+  bool holds_result_;  ///< of before
+  Origin origin_;
   Checkpoints checkpoints_;
   Progress progress_;
   Discretization discretization_;

@@ -47,6 +47,8 @@ void add_case_arguments(CLI::App& verb, CaseArguments& arguments) {
 /// Where a run writes and what it begins from; returns the option of the latter.
 const CLI::Option* add_run_arguments(CLI::App& verb, CaseArguments& arguments) {
   verb.add_option("--out", arguments.folder, "Folder of the run (default: runs/<name of the case file>)");
+  verb.add_flag("--overwrite", arguments.may_overwrite,
+                "Replace other results in the folder, once those of this run stand");
   return verb.add_option("--restart", "Go on from a checkpoint (default: the newest of the folder)")
       ->type_name("FILE")
       ->expected(0, 1);

@@ -1,10 +1,6 @@
 #include "app/motion_setup.hpp"
 
 #include <cmath>
-#include <fstream>
-#include <iterator>
-
-#include "core/error.hpp"
 
 namespace alphadot {
 
@@ -14,33 +10,12 @@ namespace {
 /// unsteady.inner_tolerance: the deficit integral is a fraction of the response times the record.
 constexpr Real response_share = 0.1;
 
-MotionTable read_table(const Case& settings, const Communicator& comm) {
-  const std::string& file = settings.motion.table_file;
-  std::string text;
-  comm.on_root([&] {
-    std::ifstream in(file, std::ios::binary);
-    if (!in) throw InputError(file, 0, "the motion's table cannot be opened", "check motion.table_file");
-    text.assign(std::istreambuf_iterator<char>(in), {});
-  });
-  text = comm.broadcast(text);
-  MotionTable out;
-  comm.on_all([&] {
-    out = parse_motion_table(text, file);
-    if (out.end < settings.unsteady.duration)
-      throw InputError(file, 0,
-                       "the table ends at t_star = " + std::to_string(out.end) + ", before unsteady.duration",
-                       "add points or shorten the duration");
-  });
-  return out;
-}
-
 }  // namespace
 
-Motion make_motion(const Case& settings, const Communicator& comm) {
-  MotionTable table;
-  if (settings.motion.kind == MotionKind::table) table = read_table(settings, comm);
+Motion make_motion(const Setup& setup) {
+  const Case& settings = setup.settings;
   return Motion(settings.motion, settings.freestream, settings.reference.length, settings.unsteady.duration,
-                std::move(table));
+                setup.motion_table);
 }
 
 TimePlan time_plan(const Case& settings, const Motion& motion) {

@@ -7,9 +7,8 @@
 
 namespace alphadot {
 
-/// The motion of a case; reads its table, if it has one, on the root. Collective. Throws InputError on every
-/// rank.
-Motion make_motion(const Case& settings, const Communicator& comm);
+/// The motion of a case.
+Motion make_motion(const Setup& setup);
 
 /// How a case is marched in time.
 struct TimePlan {

@@ -11,7 +11,7 @@ Real pressure_coefficient(Real pressure, const FreestreamSettings& stream) {
 }
 
 void write_flow_picture(const std::string& path, const Setup& setup, const FlowField<Real>& flow,
-                        const Communicator& comm) {
+                        const Origin& origin, const Communicator& comm) {
   const auto cells = static_cast<std::size_t>(setup.domain.owned_cells);
   const auto& stream = setup.settings.freestream;
   std::vector<Real> density(cells), pressure(cells), mach(cells), cp(cells), rank(cells, comm.rank());
@@ -31,24 +31,26 @@ void write_flow_picture(const std::string& path, const Setup& setup, const FlowF
               {"cp", cp},
               {"velocity", speed},
               {"rank", rank}},
-             comm);
+             origin, comm);
 }
 
 void write_surface_picture(const std::string& path, const Setup& setup, const ImplicitIteration& iteration,
-                           const Communicator& comm) {
+                           const Origin& origin, const Communicator& comm) {
   const auto pressure = iteration.residual().boundary_pressures();
   std::vector<Real> cp;
   for (const Real p : pressure) cp.push_back(pressure_coefficient(p, setup.settings.freestream));
-  write_surface(path, setup.domain, {{"pressure", {pressure.begin(), pressure.end()}}, {"cp", cp}}, comm);
+  write_surface(path, setup.domain, {{"pressure", {pressure.begin(), pressure.end()}}, {"cp", cp}}, origin,
+                comm);
 }
 
 }  // namespace
 
 void write_pictures(const std::string& folder, const Setup& setup, const ImplicitIteration& iteration,
-                    const Communicator& comm) {
-  if (setup.settings.output.flow) write_flow_picture(folder + "/flow.vtkhdf", setup, iteration.flow(), comm);
+                    const Origin& origin, const Communicator& comm) {
+  if (setup.settings.output.flow)
+    write_flow_picture(folder + "/flow.vtkhdf", setup, iteration.flow(), origin, comm);
   if (setup.settings.output.surface)
-    write_surface_picture(folder + "/surface.vtkhdf", setup, iteration, comm);
+    write_surface_picture(folder + "/surface.vtkhdf", setup, iteration, origin, comm);
 }
 
 }  // namespace alphadot

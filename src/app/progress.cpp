@@ -19,14 +19,14 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr Real seconds_between_lines = 2;
-constexpr char steady_head[] = "iteration,orders,cfl,CA,CY,CN,Cl,Cm,Cn\n";
+constexpr char steady_columns[] = "iteration,orders,cfl,CA,CY,CN,Cl,Cm,Cn";
 
-/// The head of a table of iterations and its rows up to one of them.
-std::string rows_up_to(const std::string& path, int iteration) {
+/// The head of a table of iterations and the rows up to one of them that the table has so far.
+std::string rows_up_to(const std::string& path, const std::string& head, int iteration) {
   std::ifstream in(path);
-  std::string out, line;
-  if (!std::getline(in, line) || line + '\n' != steady_head) return steady_head;
-  out = line + '\n';
+  std::string out = head, line;
+  while (std::getline(in, line) && line.starts_with('#')) continue;
+  if (line != steady_columns) return out;
   while (std::getline(in, line) && std::atoi(line.c_str()) <= iteration) out += line + '\n';
   return out;
 }
@@ -61,8 +61,11 @@ std::string duration_text(Real seconds) {
   return fmt::format("{} s", whole);
 }
 
-Progress::Progress(const Case& settings, std::string folder, bool is_root)
-    : settings_(settings), folder_(std::move(folder)), is_root_(is_root) {
+Progress::Progress(const Case& settings, const Origin& origin, std::string folder, bool is_root)
+    : settings_(settings),
+      steady_head_(fmt::format("# Flow: {}\n{}\n", origin.text(), steady_columns)),
+      folder_(std::move(folder)),
+      is_root_(is_root) {
   if (is_root_) write_json("setting up", {}, not_measured, {});
 }
 
@@ -94,7 +97,7 @@ void Progress::begin_steady(int iteration) {
   begin(0);
   if (!is_root_) return;
   const std::string path = folder_ + "/steady.csv";
-  table_.emplace(path, iteration > 0 ? rows_up_to(path, iteration) : steady_head);
+  table_.emplace(path, iteration > 0 ? rows_up_to(path, steady_head_, iteration) : steady_head_);
 }
 
 void Progress::show(const SteadyProgress& progress) {

@@ -22,7 +22,7 @@ namespace alphadot {
 /// go on, so that one that cannot be written stops nothing. Silent on ranks other than the root.
 class Progress {
  public:
-  Progress(const Case& settings, std::string folder, bool is_root);
+  Progress(const Case& settings, const Origin& origin, std::string folder, bool is_root);
   /// Removes progress.json: a run that has ended is known by its result.json.
   ~Progress();
   Progress(const Progress&) = delete;
@@ -49,6 +49,7 @@ class Progress {
                   std::span<const TableRow> derivatives) const;
 
   const Case& settings_;
+  std::string steady_head_;
   std::string folder_;
   bool is_root_;
   int steps_ = 0;

@@ -81,6 +81,11 @@ RunStatus follow_motion(FlowCase& flow, History& history) {
   const auto* restart = flow.checkpoints().restart();
   flow.iteration().freeze_limiter(false);  // shocks move
   if (restart && restart->phase == "motion") restore(*restart, flow, dual_time, history);
+  if (dual_time.step() > steps)
+    throw InputError(settings.file, 0,
+                     fmt::format("the checkpoint was made after step {} of the motion, which has {} steps",
+                                 dual_time.step(), steps),
+                     "set unsteady.cycles so that it has as many, or begin in another folder");
   // The record of a response begins with the loads before it and, after a jump, with those just after.
   if (dual_time.step() == 0 && !flow.motion().is_harmonic()) {
     history.append(history_row(dual_time.before(), flow));
@@ -137,9 +142,10 @@ void judge_steps(FlowCase& flow, const History& history) {
 
 RunStatus run_verb(const CaseArguments& arguments, const Communicator& comm) {
   const SignalListener signals;
-  FlowCase flow(arguments, comm);
+  FlowCase flow(arguments, "run", comm);
   flow.announce();
-  History history(history_info(flow.settings(), flow.setup().mesh.hash));
+  const Setup& setup = flow.setup();
+  History history(history_info(setup.settings, setup.mesh.hash, setup.motion_table_hash));
   Extraction extraction;
   RunStatus status = RunStatus::error;
   Real motion_cpu = not_measured;
@@ -163,7 +169,8 @@ RunStatus run_verb(const CaseArguments& arguments, const Communicator& comm) {
   auto rows = rows_of(estimated.derivatives, extraction.method, Axes::body, estimated.parts);
   for (auto& row : rows) row.converged = flow.shortfalls().empty();
   history.info.status = flow.table_head(status, rows).status;
-  if (history.steps() > 0) comm.on_root([&] { write_history(flow.folder(), history); });
+  if (history.steps() > 0 && !flow.keeps_result_of_before(status))
+    comm.on_root([&] { write_history(flow.folder(), history); });
   Result result = flow.result(status, rows);
   result.performance.motion_cpu_s = comm.sum(motion_cpu);
   flow.write(result);

@@ -4,105 +4,143 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 #include <utility>
 
 #include "core/error.hpp"
 #include "core/log.hpp"
 #include "core/memory.hpp"
 #include "io/case_file.hpp"
+#include "io/files.hpp"
 #include "io/mesh_reader.hpp"
 #include "io/partitioned_mesh.hpp"
+#include "io/seal.hpp"
 #include "io/toml_text.hpp"
 #include "space/plausibility.hpp"
 
 namespace alphadot {
 
-Case load_case(const std::string& path, const std::vector<std::string>& overrides, const Communicator& comm) {
-  std::string text;
-  comm.on_root([&] {
-    std::ifstream in(path, std::ios::binary);
-    if (!in)
-      throw InputError(path, 0, "the case file cannot be opened", "check the path and its permissions");
-    text.assign(std::istreambuf_iterator<char>(in), {});
-  });
-  text = comm.broadcast(text);
-  Case out;
-  comm.on_all([&] { out = parse_case(text, path, overrides); });
-  return out;
-}
-
 namespace {
 
-std::vector<BoundaryKind> match_patches(const Case& settings, const std::vector<std::string>& patch_names) {
-  std::vector<Problem> problems;
-  std::vector<BoundaryKind> kinds;
-  for (const auto& name : patch_names) {
-    const auto found = settings.boundary.find(name);
-    if (found == settings.boundary.end())
+constexpr std::uintmax_t largest_table = 16 << 20;  ///< bytes
+
+/// Adds what is wrong between the patches of a mesh and [boundary].
+void add_patch_problems(const Case& settings, const std::vector<std::string>& patch_names,
+                        std::vector<Problem>& problems) {
+  for (const auto& name : patch_names)
+    if (!settings.boundary.contains(name))
       problems.push_back({settings.file, 0,
                           fmt::format("patch \"{}\" of the mesh has no boundary condition", name),
                           fmt::format("add {} = \"wall\", \"symmetry\", \"farfield\", ... to [boundary]",
                                       toml_string(name))});
-    else
-      kinds.push_back(found->second);
+  for (const auto& [name, kind] : settings.boundary) {
+    if (std::ranges::find(patch_names, name) != patch_names.end()) continue;
+    const auto line = settings.boundary_lines.find(name);
+    problems.push_back({settings.file, line == settings.boundary_lines.end() ? 0 : line->second,
+                        fmt::format("[boundary] names \"{}\", which the mesh does not have", name),
+                        fmt::format("its patches are {}", fmt::join(patch_names, ", "))});
   }
-  for (const auto& [name, kind] : settings.boundary)
-    if (std::ranges::find(patch_names, name) == patch_names.end())
-      problems.push_back({settings.file, 0,
-                          fmt::format("[boundary] names \"{}\", which the mesh does not have", name),
-                          fmt::format("its patches are {}", fmt::join(patch_names, ", "))});
-  if (!problems.empty()) throw InputError(std::move(problems));
-  return kinds;
 }
 
-/// Reads a mesh that the root holds whole before it is cut.
-void distribute_from_root(Setup& setup, const Communicator& comm) {
-  const auto& settings = setup.settings;
-  MeshOfFile mesh;
-  comm.on_root([&] {
-    mesh = read_mesh(settings.mesh.file);
-    for (const auto& note : mesh.notes) spdlog::info("{}: {}", settings.mesh.file, note);
-    mesh.validate();
-    std::vector<std::string> names;
-    for (const auto& patch : mesh.patches) names.push_back(patch.name);
-    match_patches(settings, names);
-    setup.mesh.hash = mesh.hash();
-  });
-  setup.domain = distribute(mesh, comm, settings.mesh.scale);
+/// Adds what is wrong in `look` to the problems.
+template <class Look>
+void collect(std::vector<Problem>& problems, const Look& look) {
+  try {
+    look();
+  } catch (const InputError& error) {
+    problems.insert(problems.end(), error.problems().begin(), error.problems().end());
+  }
 }
 
-/// Reads a prepared mesh, every rank its own part.
-void distribute_in_parallel(Setup& setup, const Communicator& comm) {
-  const auto& settings = setup.settings;
-  comm.on_root([&] {
-    const auto header = read_partitioned_mesh_header(settings.mesh.file);
-    match_patches(settings, header.patch_names);
-    setup.mesh.hash = header.hash;
+/// The table of a motion from its text.
+MotionTable table_of(const Case& settings, const std::string& text) {
+  auto out = parse_motion_table(text, settings.motion.table_file);
+  if (out.end < settings.unsteady.duration)
+    throw InputError(settings.motion.table_file, 0,
+                     fmt::format("the table ends at t_star = {:g}, before unsteady.duration", out.end),
+                     "add points or shorten the duration");
+  return out;
+}
+
+/// What the root reads of a case's files, with all that is wrong with them.
+struct CaseFiles {
+  bool mesh_is_prepared = false;
+  MeshOfFile mesh;  ///< unless it is prepared
+  std::string mesh_hash, table_text;
+  std::vector<Problem> problems;
+};
+
+CaseFiles read_files(const Case& settings) {
+  CaseFiles out;
+  std::vector<std::string> patches;
+  collect(out.problems, [&] {
+    const std::string& file = settings.mesh.file;
+    if (file.empty()) return;
+    out.mesh_is_prepared = is_hdf5(file);
+    if (out.mesh_is_prepared) {
+      auto header = read_partitioned_mesh_header(file);
+      patches = std::move(header.patch_names);
+      out.mesh_hash = std::move(header.hash);
+    } else {
+      out.mesh = read_mesh(file);
+      for (const auto& patch : out.mesh.patches) patches.push_back(patch.name);
+    }
+    if (!settings.boundary.empty()) add_patch_problems(settings, patches, out.problems);
+    if (!out.mesh_is_prepared) out.mesh.validate();
   });
-  setup.domain = distribute(read_partitioned_mesh(settings.mesh.file, comm), comm, settings.mesh.scale);
+  if (settings.motion.kind == MotionKind::table && !settings.motion.table_file.empty())
+    collect(out.problems, [&] {
+      out.table_text = read_text_file(settings.motion.table_file, "table of a motion", largest_table);
+      table_of(settings, out.table_text);
+    });
+  return out;
 }
 
 }  // namespace
+
+Case load_case(const std::string& path, const std::vector<std::string>& overrides, const Communicator& comm) {
+  std::string text;
+  comm.on_root([&] { text = read_case_text(path); });
+  text = comm.broadcast(text);
+  CaseDraft draft;
+  comm.on_all([&] {
+    draft = draft_case(text, path, overrides);
+    if (draft.problems.empty()) return;
+    if (comm.is_root() && draft.is_readable) {
+      const auto more = read_files(draft.settings).problems;
+      draft.problems.insert(draft.problems.end(), more.begin(), more.end());
+    }
+    throw InputError(std::move(draft.problems));
+  });
+  return std::move(draft.settings);
+}
 
 Setup load_setup(const Case& settings, const Communicator& comm) {
   Setup out;
   out.settings = settings;
   out.mesh.file = settings.mesh.file;
   const Real before = resident_bytes();
-  bool prepared = false;
-  comm.on_root([&] { prepared = is_hdf5(settings.mesh.file); });
-  if (comm.any(prepared))
-    distribute_in_parallel(out, comm);
-  else
-    distribute_from_root(out, comm);
+  CaseFiles files;
+  comm.on_root([&] {
+    files = read_files(settings);
+    if (!files.problems.empty()) throw InputError(std::move(files.problems));
+    for (const auto& note : files.mesh.notes) spdlog::info("{}: {}", settings.mesh.file, note);
+    if (!files.mesh_is_prepared) files.mesh_hash = files.mesh.hash();
+  });
+  out.domain = comm.any(files.mesh_is_prepared)
+                   ? distribute(read_partitioned_mesh(settings.mesh.file, comm), comm, settings.mesh.scale)
+                   : distribute(files.mesh, comm, settings.mesh.scale);
+  files.mesh = {};
   const Real peak = std::max(peak_resident_bytes() - before, Real{0});
   out.memory = {comm.sum(static_cast<Real>(out.domain.bytes())), comm.sum(peak), comm.max(peak)};
-  out.mesh.hash = comm.broadcast(out.mesh.hash);
+  out.mesh.hash = comm.broadcast(files.mesh_hash);
   out.mesh.cells = out.domain.global_cells;
   out.mesh.points = out.domain.global_points;
-  out.patch_kinds = match_patches(settings, out.domain.patch_names);
+  for (const auto& name : out.domain.patch_names) out.patch_kinds.push_back(settings.boundary.at(name));
+  if (settings.motion.kind == MotionKind::table) {
+    files.table_text = comm.broadcast(files.table_text);
+    comm.on_all([&] { out.motion_table = table_of(settings, files.table_text); });
+    out.motion_table_hash = content_hash(files.table_text);
+  }
   out.configuration = survey(out.domain, out.patch_kinds, settings, comm);
   comm.on_all([&] {
     auto [problems, warnings] = judge(out.configuration, out.domain.patch_names, settings);

@@ -7,6 +7,7 @@
 #include "core/case.hpp"
 #include "core/communicator.hpp"
 #include "io/result.hpp"
+#include "motion/motion_table.hpp"
 #include "partition/subdomain.hpp"
 #include "space/configuration.hpp"
 
@@ -27,15 +28,18 @@ struct Setup {
   ReadingMemory memory;
   std::vector<BoundaryKind> patch_kinds;  ///< of every patch of the mesh, in its order
   Configuration configuration;
+  MotionTable motion_table;  ///< for motion.kind = "table"
+  std::string motion_table_hash;
   std::vector<std::string> warnings;  ///< what is improbable about the case with this mesh
 };
 
-/// Reads and checks the case file (on the root; broadcast). Collective. Throws InputError on every rank.
+/// Reads and checks the case file (on the root; broadcast). Collective. Throws InputError on every rank, with
+/// the mistakes of the files that a faulty case names, too.
 Case load_case(const std::string& path, const std::vector<std::string>& overrides, const Communicator& comm);
 
-/// Reads, checks and distributes the mesh of a case and matches its patches with [boundary]. A mesh prepared
-/// by alphadot partition is read by all ranks at once; any other by the root. Then looks whether the mesh is
-/// what the case says. Collective. Throws InputError on every rank.
+/// Reads, checks and distributes the mesh of a case, matches its patches with [boundary], and reads the table
+/// of its motion. A mesh prepared by alphadot partition is read by all ranks at once; any other by the root.
+/// Then looks whether the mesh is what the case says. Collective. Throws InputError on every rank.
 Setup load_setup(const Case& settings, const Communicator& comm);
 
 }  // namespace alphadot

@@ -123,6 +123,7 @@ struct Case {
   ReferenceSettings reference;
   FreestreamSettings freestream;
   std::map<std::string, BoundaryKind> boundary;
+  std::map<std::string, int> boundary_lines;  ///< where the case file names the patches, for messages
   SpaceSettings space;
   SteadySettings steady;
   MotionSettings motion;

@@ -30,6 +30,11 @@ inline std::string to_string(RunStatus status) {
   return "error";
 }
 
+/// Whether a run that ended so came to its end, with numbers.
+inline bool is_finished(RunStatus status) {
+  return status == RunStatus::converged || status == RunStatus::completed || status == RunStatus::unconverged;
+}
+
 /// Exit code of the program: 0 converged or completed, 1 error, 3 interrupted, 4 diverged, 5 not converged.
 /// (2 is a wrong command line.)
 inline int exit_code(RunStatus status) {

@@ -54,11 +54,14 @@ what \-\-restart goes on from
 .I mesh_2, mesh_3
 the same files of the coarser meshes that derivatives.coarser_meshes lists
 .TP
-.I case.toml
+.I resolved_case.toml
 the case with every default filled in
 .TP
 .I stop
 made by the user, this file ends the run with a checkpoint
+.PP
+A folder holds the results of one flow and one verb, and works for one run at a time. What stands there finished is replaced when the
+result of a new run stands; results of another flow or verb only with \-\-overwrite.
 .SH SIGNALS
 .TP
 .B USR1

@@ -100,6 +100,10 @@ TEST(FlightPoint, ExchangeFormatsSayTheStatus) {
   auto point = example();
   EXPECT_FALSE(contains(avl_stability_text(point), "Status"));
   point.status = "not_converged: on a--b.msh: 2 of 3 decades";
+  point.origin = "Mach 2, alpha 1 deg; mesh a--b.msh";
+  EXPECT_TRUE(
+      contains(avl_stability_text(point), " Configuration: example; Mach 2, alpha 1 deg; mesh a--b.msh\n"));
+  EXPECT_TRUE(contains(jsbsim_aerodynamics(point), "Flow: Mach 2, alpha 1 deg; mesh a- -b.msh."));
   EXPECT_TRUE(contains(avl_stability_text(point), " Status: not_converged: on a--b.msh: 2 of 3 decades\n"));
   const auto xml = jsbsim_aerodynamics(point);
   EXPECT_TRUE(contains(xml, "Status: not_converged: on a- -b.msh: 2 of 3 decades.")) << xml;

@@ -57,7 +57,7 @@ class AdjointTest(unittest.TestCase):
         for key, about, step in (("mach", 2.0, 1e-4), ("gamma", 1.4, 1e-4)):
             forces = []
             for sign in (1, -1):
-                self.run_ok("run", "moved", *EXACT, "--set", f"freestream.{key}={about + sign * step}")
+                self.run_ok("run", "moved", "--overwrite", *EXACT, "--set", f"freestream.{key}={about + sign * step}")
                 forces.append(self.result("moved")["forces"])
             for load in ("CN", "Cm"):
                 difference = (forces[0][load] - forces[1][load]) / (2 * step)
@@ -77,7 +77,7 @@ class AdjointTest(unittest.TestCase):
         for sign in (1, -1):
             moved = [(x, y, z + (sign * step * up(x, y) if z == 0 else 0)) for x, y, z in points]
             write_case(self.folder, CASE, gmsh_text(moved, cells, patches))
-            self.run_ok("run", "moved", *EXACT)
+            self.run_ok("run", "moved", "--overwrite", *EXACT)
             forces.append(self.result("moved")["forces"])
         write_case(self.folder, CASE, gmsh_text(points, cells, patches))
         for load in ("CN", "Cm"):
@@ -86,7 +86,7 @@ class AdjointTest(unittest.TestCase):
             self.assertAlmostEqual(found, difference, delta=1e-5 * abs(difference), msg=load)
 
     def test_writes_its_files(self) -> None:
-        for name in ("adjoint.csv", "adjoint.vtkhdf", "surface_sensitivity.vtkhdf", "flow.vtkhdf", "case.toml"):
+        for name in ("adjoint.csv", "adjoint.vtkhdf", "surface_sensitivity.vtkhdf", "flow.vtkhdf", "resolved_case.toml"):
             self.assertTrue((self.folder / "adjoint" / name).is_file(), name)
         table = (self.folder / "adjoint/adjoint.csv").read_text()
         self.assertIn("\nCm_alphadot,", table)

@@ -140,9 +140,9 @@ class Commands(unittest.TestCase):
 
     def test_history(self) -> None:
         with open(self.folder / "plunge" / "history.csv") as file:
-            status, *lines = file
-        self.assertEqual(status, "# Status: completed\n")
-        rows = list(csv.DictReader(lines))
+            lines = list(file)
+        self.assertIn("# Status: completed\n", lines)
+        rows = list(csv.DictReader(line for line in lines if not line.startswith("#")))
         self.assertEqual(len(rows), STEPS)
         self.assertEqual(float(rows[-1]["step"]), STEPS)
         for column in ("t_star", "alpha", "total/CN", "total/Cm", "error/Cm", "wall/Cm"):
@@ -157,7 +157,7 @@ class Commands(unittest.TestCase):
             self.assertIn(b"UnstructuredGrid", content)
 
     def test_resolved_case_gives_the_same_run(self) -> None:
-        self.succeeded("run", "plunge/case.toml", "--out", "again", "--quiet")
+        self.succeeded("run", "plunge/resolved_case.toml", "--out", "again", "--quiet")
         first, again = (self.result(folder)["derivatives"]["Cm_alphadot"]["value"] for folder in ("plunge", "again"))
         self.assertAlmostEqual(first, again, delta=1e-9)
 

@@ -34,7 +34,7 @@ class Status(unittest.TestCase):
         write_case(self.folder, CASE + PLUNGE, gmsh_text(*box(3)))
 
     def run_short(self, verb: str, *arguments: str) -> Outcome:
-        outcome = run(self.folder, verb, "case.toml", "--out", "out", *arguments)
+        outcome = run(self.folder, verb, "case.toml", "--out", "out", "--overwrite", *arguments)
         self.assertEqual(outcome.codes, [NOT_CONVERGED] * RANKS, outcome.err)
         return outcome
 
@@ -103,10 +103,10 @@ class Status(unittest.TestCase):
 
     def test_a_motion_does_not_forget_its_steady_flow(self) -> None:
         reached = r"the steady residual dropped \d\.\d of 10 decades in 5 iterations"
-        for arguments in (CUT_MARCH, ("--restart", *CUT_MARCH), ("--restart",)):
+        for arguments in (CUT_MARCH, ("--restart", *CUT_MARCH)):
             outcome = self.run_short("run", *arguments)
             self.assert_everything_says(outcome, reached)
-            self.assertRegex(self.text("history.csv"), f"^# Status: not_converged: {reached}, worst: cell ")
+            self.assertRegex(self.text("history.csv"), f"(?m)^# Status: not_converged: {reached}, worst: cell ")
             self.assertEqual({entry["converged"] for entry in self.result()["derivatives"].values()}, {False})
         derived = run(self.folder, "derive", "out/history.h5", ranks=1).out
         self.assertRegex(derived, f"(?m)^Status: not_converged: {reached}, worst: cell ")
@@ -177,9 +177,10 @@ class Motions(unittest.TestCase):
                     self.assertRegex(outcome.err, rf"\b{least}\b")
                     self.assertNotIn("steady ", outcome.err)
             with self.subTest(key, settings=settings, least=least):
-                outcome = self.outcome("run", settings | {key: least, "output.folder": "out"})
+                out = f"{settings['motion.kind']}_{key}"
+                outcome = self.outcome("run", settings | {key: least, "output.folder": out})
                 self.assertIn(outcome.codes, ([0] * RANKS, [NOT_CONVERGED] * RANKS), outcome.err)
-                result = json.loads((self.folder / "out" / "result.json").read_text())
+                result = json.loads((self.folder / out / "result.json").read_text())
                 self.assertGreater(len(result["derivatives"]), 0, outcome.err)
 
 

@@ -60,7 +60,7 @@ class Disk(CaseInFolder):
             full, part = self.folder / f"full_{verb}", self.folder / f"part_{verb}"
             self.assertEqual(run(self.folder, full, *SHORT, verb=verb).returncode, 0)
             names = {file.name for file in full.iterdir() if file.name not in LIVE}
-            self.assertLessEqual({"case.toml", "result.json", "flow.vtkhdf", "surface.vtkhdf", *OF_VERB[verb]}, names)
+            self.assertLessEqual({"resolved_case.toml", "result.json", "flow.vtkhdf", "surface.vtkhdf", *OF_VERB[verb]}, names)
             for name in sorted(names):
                 with self.subTest(verb=verb, name=name):
                     shutil.rmtree(part, ignore_errors=True)

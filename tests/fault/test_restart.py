@@ -108,14 +108,42 @@ class Restart(CaseInFolder):
 
     def test_contradictions_are_refused_by_key(self) -> None:
         self.run_ok(self.part)
-        self.refused("freestream.mach is 3", "made with 2", arguments=settings(freestream_mach=3))
-        self.refused("unsteady.steps_per_cycle", arguments=settings(unsteady_steps_per_cycle=17))
-        self.refused("motion.kind", "motion.amplitude", arguments=settings(motion_kind="pitch", motion_amplitude=2))
+        for arguments, says in (
+            (settings(freestream_mach=3), ("freestream.mach is 3", "made with 2")),
+            (settings(unsteady_steps_per_cycle=17), ("unsteady.steps_per_cycle",)),
+            (settings(motion_kind="pitch", motion_amplitude=2), ("motion.kind", "motion.amplitude")),
+        ):
+            self.refused("the folder holds other results", arguments=arguments)
+            self.refused(*says, arguments=[*arguments, "--overwrite"])
+
+    def test_what_made_the_steps_stays(self) -> None:
+        """A motion that has begun goes on under the tolerances of its steps and of the flow before them."""
+        self.run_ok(self.part)
+        before = (self.part / "result.json").read_bytes()
+        self.refused("unsteady.inner_tolerance is 1e-06", "made with 0.001", arguments=settings(unsteady_inner_tolerance=1e-6))
+        self.refused("unsteady.max_inner is 400", arguments=settings(unsteady_max_inner=400))
+        self.refused("steady.orders is 12", arguments=settings(steady_orders=12))
+        self.assertEqual((self.part / "result.json").read_bytes(), before)
+        self.run_ok(self.part, "--restart", *settings(unsteady_cycles=2))
+        self.refused("unsteady.cycles", "step 32", "has 24 steps", arguments=[])
+
+    def test_another_table_is_refused(self) -> None:
+        table = self.folder / "motion.txt"
+        table.write_text("t_star alpha\n0 1\n1 1.5\n2 2\n")
+        arguments = settings(motion_kind="table", motion_table_file="motion.txt", unsteady_duration=2, unsteady_steps=8)
+        self.run_ok(self.part, *arguments)
+        moved = self.folder / "moved.txt"
+        moved.write_bytes(table.read_bytes())
+        self.run_ok(self.part, "--restart", *arguments, *settings(motion_table_file="moved.txt"))
+        table.write_text("t_star alpha\n0 1\n1 1.5\n2 3\n")
+        self.refused("motion.txt", "the table has other content", arguments=[*arguments, "--overwrite"])
+        self.refused("the table of its motion has other content", arguments=arguments)
 
     def test_another_mesh_is_refused(self) -> None:
         self.run_ok(self.part)
         make_case(self.folder, cells=2)
-        self.refused("belongs to another mesh", arguments=[])
+        self.refused("it is of another mesh", arguments=[])
+        self.refused("belongs to another mesh", arguments=["--overwrite"])
 
     def test_damaged_checkpoints_are_named_and_passed_over(self) -> None:
         arguments = settings(checkpoint_steps=1, checkpoint_keep=5)

@@ -84,9 +84,9 @@ class RestartDerivatives(CaseInFolder):
 
     def test_a_motion_begins_from_them_but_gives_none(self) -> None:
         self.run_ok(self.part)
-        self.run_ok(self.part, "--restart", verb="run")
+        self.run_ok(self.part, "--restart", "--overwrite", verb="run")
         self.assertEqual(result(self.part)["status"], "completed")
-        done = run(self.folder, self.part, "--restart", verb="derivatives")
+        done = run(self.folder, self.part, "--restart", "--overwrite", verb="derivatives")
         self.assertEqual(done.returncode, 1)
         self.assertEqual(done.stderr.count("alphadot: error: "), 1)
         self.assertIn("was made in a motion", done.stderr)

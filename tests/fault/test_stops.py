@@ -126,8 +126,8 @@ class Stops(CaseInFolder):
         self.assertEqual(result(self.part)["status"], "interrupted")
 
     def test_a_flow_that_breaks_down(self) -> None:
-        # Numbers beyond all bounds; and a stream straight away from a wall, which leaves a vacuum there.
-        for stream in ({"freestream_mach": 1e12}, {"freestream_mach": 20, "freestream_alpha": 90, "motion_kind": "none"}):
+        # A stream straight away from a wall leaves a vacuum there.
+        for stream in ({"freestream_mach": 100, "freestream_alpha": 90}, {"freestream_mach": 20, "freestream_alpha": 90, "motion_kind": "none"}):
             with self.subTest(stream=stream):
                 shutil.rmtree(self.part, ignore_errors=True)
                 done = run(self.folder, self.part, *settings(**stream, checkpoint_iterations=1))

@@ -2,10 +2,13 @@
 // (case_keys.cpp), and the line numbers of the texts below counted by hand.
 #include "io/case_file.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <random>
 
 #include "core/error.hpp"
@@ -136,7 +139,72 @@ TEST(CaseFile, DocumentationNamesEveryKey) {
   const std::string text = describe_case_keys();
   for (const auto& key : case_keys())
     EXPECT_NE(text.find(key.is_family() ? "<patch>" : key.name()), std::string::npos) << key.path;
-  EXPECT_NE(text.find("a number > 1 and <= 5, default 1.4"), std::string::npos);
+  EXPECT_NE(text.find("a number from 1.01 to 5, default 1.4"), std::string::npos);
+}
+
+/// What the key makes of a text of TOML; nothing when it takes it.
+std::string answer_of(const CaseKey& key, const std::string& value) {
+  Case c;
+  try {
+    const auto table = toml::parse("value = " + value);
+    const auto problem = key.read(key.name(), *table.get("value"), c);
+    return problem ? problem->what : "";
+  } catch (const toml::parse_error& error) {
+    return error.what();
+  }
+}
+
+// Every key that takes numbers says which, takes both ends, and refuses what is beyond, in any spelling.
+TEST(CaseFile, NumbersHaveLimits) {
+  std::size_t numbers = 0;
+  for (const auto& key : case_keys()) {
+    const bool is_number = key.type.find("number") != std::string::npos;
+    const bool is_integer = key.type.find("integer") != std::string::npos;
+    ASSERT_EQ(key.limits.has_value(), is_number || is_integer) << key.path;
+    if (!key.limits) continue;
+    ++numbers;
+    const auto [from, to] = *key.limits;
+    ASSERT_TRUE(std::isfinite(from) && std::isfinite(to) && from < to) << key.path;
+    EXPECT_NE(describe_case_keys().find(fmt::format("from {} to {}", from, to)), std::string::npos)
+        << key.path;
+    const bool is_vector = key.type.starts_with("three");
+    const auto answer = [&](const std::string& value) {
+      return answer_of(key, is_vector ? "[0.5, " + value + ", 0.5]" : value);
+    };
+    const auto text = [&](Real value) {
+      return is_integer ? std::to_string(static_cast<std::int64_t>(value)) : fmt::format("{:#.17g}", value);
+    };
+    const Real step = is_integer ? 1 : std::numeric_limits<Real>::infinity();
+    const auto beyond = [&](Real limit, Real sign) {
+      return is_integer ? limit + sign * step : std::nextafter(limit, sign * step);
+    };
+    for (const auto& good : {text(from), text(to)}) EXPECT_EQ(answer(good), "") << key.path << " = " << good;
+    for (const std::string& bad :
+         {text(beyond(from, -1)), text(beyond(to, 1)), std::string("nan"), std::string("-nan"),
+          std::string("inf"), std::string("-inf"), std::string("1e300"), std::string("-1e300"),
+          std::string("9223372036854775807"), std::string("-9223372036854775808"),
+          std::string("18446744073709551617")})
+      EXPECT_NE(answer(bad), "") << key.path << " = " << bad;
+    // What becomes an allowed number when it is cut to 32 bits.
+    if (is_integer) {
+      const auto wrapped = (std::int64_t{1} << 32) + static_cast<std::int64_t>(from);
+      EXPECT_NE(answer(std::to_string(wrapped)), "") << key.path;
+    }
+  }
+  EXPECT_GT(numbers, 30u);
+}
+
+TEST(CaseFile, TextsHaveLimits) {
+  for (const auto& key : case_keys()) {
+    const bool is_list = key.type.starts_with("a list");
+    if (!key.type.starts_with("text") && !is_list) continue;
+    const auto quoted = [&](const std::string& text) {
+      return is_list ? "[\"" + text + "\"]" : '"' + text + '"';
+    };
+    EXPECT_EQ(answer_of(key, quoted("abc")), "") << key.path;
+    EXPECT_NE(answer_of(key, quoted(std::string(5000, 'x'))), "") << key.path;
+    EXPECT_NE(answer_of(key, quoted("a\\u0000b")), "") << key.path;
+  }
 }
 
 struct BadCase {
@@ -161,14 +229,14 @@ INSTANTIATE_TEST_SUITE_P(
     CaseFile, BadCases,
     testing::Values(
         BadCase{"", 4, "freestream.mach is missing"},
-        BadCase{"mach = -1", 5, "freestream.mach must be a number > 0, not -1"},
+        BadCase{"mach = -1", 5, "freestream.mach must be a number from 0.01 to 100, not -1"},
         BadCase{"mach = 0", 5, "not 0"}, BadCase{"mach = nan", 5, "not nan"},
         BadCase{"mach = inf", 5, "not inf"},
-        BadCase{"mach = \"fast\"", 5, "must be a number > 0, not \"fast\""},
+        BadCase{"mach = \"fast\"", 5, "must be a number from 0.01 to 100, not \"fast\""},
         BadCase{"mach = true", 5, "not true"}, BadCase{"mach = [1]", 5, "not an array of 1"},
         BadCase{"mach = 1979-05-27", 5, "not a date"}, BadCase{"mach.x = 2", 5, "not a table"},
-        BadCase{"mach = 2\ngamma = 1", 6, "must be a number > 1 and <= 5, not 1"},
-        BadCase{"mach = 2\nalpha = 200", 6, "freestream.alpha must be a number >= -180 and <= 180"},
+        BadCase{"mach = 2\ngamma = 1", 6, "must be a number from 1.01 to 5, not 1"},
+        BadCase{"mach = 2\nalpha = 200", 6, "freestream.alpha must be a number from -180 to 180"},
         BadCase{"mach = 2\nmahc = 3", 6, "unknown key freestream.mahc; did you mean freestream.mach?"},
         BadCase{"mach = 2\nxyzzy = 3", 6, "unknown key freestream.xyzzy; alphadot keys"},
         BadCase{"mach = 2\nflux = \"roe\"", 6, "unknown key freestream.flux; did you mean space.flux?"},
@@ -177,11 +245,11 @@ INSTANTIATE_TEST_SUITE_P(
         BadCase{"mach = 2\n[[space]]\norder = 1", 6, "space must be a table"},
         BadCase{"mach = 2\n[space]\nflux = \"reo\"", 7,
                 "must be \"roe\" | \"van_leer\" | \"hllc\", not \"reo\"; did you mean \"roe\"?"},
-        BadCase{"mach = 2\n[space]\norder = 2.0", 7, "must be an integer >= 1 and <= 2, not 2"},
+        BadCase{"mach = 2\n[space]\norder = 2.0", 7, "must be an integer from 1 to 2, not 2"},
         BadCase{"mach = 2\n[steady]\nmax_iterations = 99999999999", 7,
-                "must be an integer >= 1, not 99999999999"},
+                "must be an integer from 1 to 100000000, not 99999999999"},
         BadCase{"mach = 2\n[reference]\nmoment_center = [1, 2]", 7,
-                "three numbers [x, y, z], not an array of 2"},
+                "three numbers [x, y, z] from -1000000000000 to 1000000000000, not an array of 2"},
         BadCase{"mach = 2\n[reference]\nmoment_center = [1, 2, nan]", 7, "reference.moment_center must be"},
         BadCase{"mach = 2\n[output]\nflow = \"yes\"", 7, "must be true or false"},
         BadCase{"mach = 2\n[output]\nfolder = \"\"", 7, "must not be empty"},
@@ -197,6 +265,8 @@ INSTANTIATE_TEST_SUITE_P(
                 "set unsteady.cycles = 1.5"},
         BadCase{"mach = 2\n[motion]\nkind = \"plunge\"\n[unsteady]\nsteps_per_cycle = 12", 9,
                 "set unsteady.steps_per_cycle = 13 or more"},
+        BadCase{"mach = 2\n[motion]\nkind = \"plunge\"\n[unsteady]\ncycles = 1e6\nsteps_per_cycle = 1000", 9,
+                "unsteady.cycles * unsteady.steps_per_cycle is 1e+09 time steps; ask for at most 100000000"},
         BadCase{"mach = 2\nbeta = 1\n[reference]\nmodel = \"half\"", 6, "a half model has no sideslip"},
         BadCase{"mach = 2\n[steady]\ncfl_start = 10\ncfl_max = 5", 8, "cfl_max is below"}));
 

@@ -26,26 +26,65 @@ std::size_t entries(const std::string& folder) {
       std::distance(std::filesystem::directory_iterator(folder), std::filesystem::directory_iterator()));
 }
 
-TEST(RunFolder, IsMadeWithItsParentsAndLeftEmpty) {
+TEST(FolderLock, MakesTheFolderWithItsParentsAndLeavesItEmpty) {
   const TemporaryFolder folder;
-  make_run_folder(folder / "a/b/c");
+  { const FolderLock lock(folder / "a/b/c"); }
   EXPECT_EQ(entries(folder / "a/b/c"), 0u);
-  make_run_folder(folder / "a/b/c");  // again: no error
+  const FolderLock again(folder / "a/b/c");
 }
 
-TEST(RunFolder, RefusalNamesTheFolderAndTheRemedy) {
+TEST(FolderLock, HoldsOneFolderForOneOwner) {
+  const TemporaryFolder folder;
+  const FolderLock other(folder / "other");
+  {
+    const FolderLock lock(folder / "run");
+    try {
+      const FolderLock second(folder / "run");
+      FAIL();
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find("another run works in this folder"), std::string::npos);
+    }
+  }
+  const FolderLock next(folder / "run");
+}
+
+TEST(FolderLock, TakesWhatAKilledRunLeaves) {
+  const TemporaryFolder folder;
+  std::ofstream(folder / ".alphadot_lock") << "left";
+  const FolderLock lock(folder.path());
+}
+
+TEST(FolderLock, RefusalNamesTheFolderAndTheRemedy) {
   const TemporaryFolder folder;
   std::ofstream(folder / "file") << "x";
   for (const std::string name : {"file", "file/below"}) {
     try {
-      make_run_folder(folder / name);
+      const FolderLock lock(folder / name);
       FAIL() << name;
     } catch (const InputError& error) {
       EXPECT_EQ(error.problems()[0].file, folder / name);
       EXPECT_NE(std::string(error.what()).find("--out"), std::string::npos);
     }
   }
-  EXPECT_THROW(make_run_folder("/proc/alphadot"), InputError);  // not even root may write there
+  EXPECT_THROW(FolderLock("/proc/alphadot"), InputError);  // not even root may write there
+}
+
+TEST(ReadTextFile, RefusesWhatIsNoFileOfThatKind) {
+  const TemporaryFolder folder;
+  std::ofstream(folder / "text") << "abc";
+  EXPECT_EQ(read_text_file(folder / "text", "table", 3), "abc");
+  const auto message = [](const std::string& path) {
+    try {
+      read_text_file(path, "table", 2);
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_NE(message(folder / "text").find("too large for a table"), std::string::npos);
+  EXPECT_NE(message(folder / "none").find("no such table"), std::string::npos);
+  EXPECT_NE(message(folder.path()).find("the table is not a regular file"), std::string::npos);
+  EXPECT_NE(message("/dev/zero").find("the table is not a regular file"), std::string::npos);
 }
 
 TEST(ReplaceFile, LeavesOnlyTheNewContent) {

@@ -101,9 +101,12 @@ TEST(History, CsvHoldsEveryDigit) {
   csv << std::ifstream(folder / "history.csv").rdbuf();
   // 1/3 and sin(0.1) to the shortest text that reads back the same, as Python's repr gives them.
   EXPECT_EQ(csv.str(),
-            "step,t_star,total/CN,total/CA,body/CA\n"
-            "0,0,0,0.3333333333333333,0\n"
-            "1,0.1,0.09983341664682815,0.3333333333333333,0.010000000000000002\n");
+            "# Flow: Mach 2.5, alpha 1.5 deg, beta 0 deg, gamma 1.4; mesh finner.msh, hash 0123456789abcdef; "
+            "alphadot " +
+                history_info(plunge(), "").version +
+                "\nstep,t_star,total/CN,total/CA,body/CA\n"
+                "0,0,0,0.3333333333333333,0\n"
+                "1,0.1,0.09983341664682815,0.3333333333333333,0.010000000000000002\n");
 }
 
 TEST(History, EmptyAndNotANumberSurvive) {

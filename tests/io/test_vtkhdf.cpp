@@ -18,6 +18,7 @@ namespace {
 
 const testing_support::BoxSettings box{
     .cells = {3, 4, 5}, .lower = {-1, 0, 0}, .upper = {2, 1, 0.5}, .perturbation = 0.1};
+const Origin origin{{.mach = 2.5, .alpha = 1.5, .beta = -3}, "/a/box.msh", "0123456789abcdef", "0.1.0"};
 constexpr Real volume = 3 * 1 * 0.5;
 
 Subdomain distributed_box(const Communicator& comm) {
@@ -53,13 +54,19 @@ TEST(VtkHdf, FlowHoldsEveryCellOnce) {
   // The centre of a cell as a vector and its x as a scalar: values that the file's own geometry can confirm.
   std::vector<Real> x(static_cast<std::size_t>(domain.total_cells));
   for (std::size_t i = 0; i < x.size(); ++i) x[i] = domain.center[i].x;
-  comm.on_root([] { make_run_folder(ALPHADOT_SAMPLES); });
-  write_flow(sample("flow", comm), domain, {{"x", x}, {"center", domain.center}}, comm);
+  comm.on_root([] { std::filesystem::create_directories(ALPHADOT_SAMPLES); });
+  write_flow(sample("flow", comm), domain, {{"x", x}, {"center", domain.center}}, origin, comm);
 
   comm.on_root([&] {
     const auto file = hdf5::File::open(sample("flow", comm));
     const auto root = file.group("VTKHDF");
     const Grid grid(root);
+    const auto about = root.group("FieldData");
+    EXPECT_EQ(about.text_attribute("origin"),
+              "Mach 2.5, alpha 1.5 deg, beta -3 deg, gamma 1.4; mesh box.msh, hash 0123456789abcdef; "
+              "alphadot 0.1.0");
+    EXPECT_EQ(about.dataset("mach").read<double>(), std::vector<double>{2.5});
+    EXPECT_EQ(about.dataset("beta").read<double>(), std::vector<double>{-3});
     const std::size_t cells = 6 * 3 * 4 * 5;
     ASSERT_EQ(grid.types, std::vector<std::uint8_t>(cells, 10));
     ASSERT_EQ(grid.offsets.size(), cells + 1);
@@ -86,8 +93,9 @@ TEST(VtkHdf, SurfaceHoldsEveryFaceWithItsPatch) {
   const Subdomain domain = distributed_box(comm);
   std::vector<Real> z(domain.boundary_faces.size());
   for (std::size_t i = 0; i < z.size(); ++i) z[i] = domain.boundary_center[i].z;
-  comm.on_root([] { make_run_folder(ALPHADOT_SAMPLES); });
-  write_surface(sample("surface", comm), domain, {{"z", z}, {"normal", domain.boundary_normal}}, comm);
+  comm.on_root([] { std::filesystem::create_directories(ALPHADOT_SAMPLES); });
+  write_surface(sample("surface", comm), domain, {{"z", z}, {"normal", domain.boundary_normal}}, origin,
+                comm);
 
   comm.on_root([&] {
     const auto file = hdf5::File::open(sample("surface", comm));
@@ -113,11 +121,11 @@ TEST(VtkHdf, SurfaceHoldsEveryFaceWithItsPatch) {
 TEST(VtkHdf, FailureReachesEveryRankAndLeavesNoFile) {
   const Communicator comm;
   const Subdomain domain = distributed_box(comm);
-  EXPECT_THROW(write_flow("/proc/none/flow.vtkhdf", domain, {}, comm), InputError);
+  EXPECT_THROW(write_flow("/proc/none/flow.vtkhdf", domain, {}, origin, comm), InputError);
   const TemporaryFolder folder;
   const std::string path = comm.broadcast(folder / "flow.vtkhdf");
   const std::vector<Real> wrong(1);
-  EXPECT_THROW(write_flow(path, domain, {{"p", wrong}}, comm), InputError);
+  EXPECT_THROW(write_flow(path, domain, {{"p", wrong}}, origin, comm), InputError);
   comm.on_root([&] { EXPECT_TRUE(std::filesystem::is_empty(folder.path())); });
 }
 
