@@ -32,7 +32,7 @@ class Partition(unittest.TestCase):
     def derivatives(self, mesh: str, ranks: int) -> dict[str, float]:
         settings = (f"mesh.file={mesh}", "derivatives.orders=9", "output.flow=false", "output.surface=false")
         overrides = [part for setting in settings for part in ("--set", setting)]
-        outcome = run(self.folder, "derivatives", "case.toml", "--out", "run", "--quiet", *overrides, ranks=ranks)
+        outcome = run(self.folder, "derivatives", "case.toml", "--out", "run", "--overwrite", "--quiet", *overrides, ranks=ranks)
         self.assertEqual(outcome.codes, [0] * ranks, outcome.err)
         result = json.loads((self.folder / "run" / "result.json").read_text())
         self.assertEqual(result["mesh"]["cells"], CELLS)
