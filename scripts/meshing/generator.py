@@ -23,8 +23,11 @@ SizeField = Callable[[int, int, float, float, float], float]
 Builder = Callable[[float, argparse.Namespace], tuple[TetMesh, list[str]]]
 
 
-def generate(size: SizeField, dimension: int) -> tuple[np.ndarray, np.ndarray]:
-    """Mesh the current gmsh model in 2 or 3 dimensions: its points (n, 3), and the row of each of gmsh's node tags."""
+def generate(size: SizeField | None, dimension: int) -> tuple[np.ndarray, np.ndarray]:
+    """Mesh the current gmsh model in 2 or 3 dimensions: its points (n, 3), and the row of each of gmsh's node tags.
+
+    `size`: what gmsh calls for the cell size; None: the background field that is set decides.
+    """
     options = {
         "General.NumThreads": 1, "Mesh.RandomSeed": 1,  # the same input gives the same mesh
         "Mesh.MeshSizeExtendFromBoundary": 0, "Mesh.MeshSizeFromPoints": 0, "Mesh.MeshSizeFromCurvature": 0,
@@ -32,9 +35,11 @@ def generate(size: SizeField, dimension: int) -> tuple[np.ndarray, np.ndarray]:
     }  # fmt: skip
     for name, value in options.items():
         gmsh.option.setNumber(name, value)
-    gmsh.model.mesh.setSizeCallback(size)
+    if size is not None:
+        gmsh.model.mesh.setSizeCallback(size)
     gmsh.model.mesh.generate(dimension)
-    gmsh.model.mesh.removeSizeCallback()
+    if size is not None:
+        gmsh.model.mesh.removeSizeCallback()
     tags, coordinates, _ = gmsh.model.mesh.getNodes()
     row = np.zeros(int(tags.max()) + 1, dtype=np.int64)
     row[tags.astype(np.int64)] = np.arange(len(tags))

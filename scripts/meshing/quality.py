@@ -21,13 +21,16 @@ def radius_ratios(corners: np.ndarray) -> np.ndarray:
 
     1 when regular, 0 when flat, negative when inverted.
     """
-    a, b, c = (corners[..., i, :] - corners[..., 0, :] for i in (1, 2, 3))
-    ab, bc, ca = np.cross(a, b), np.cross(b, c), np.cross(c, a)
-    length = lambda v: np.sqrt((v * v).sum(axis=-1))
-    square = lambda v: (v * v).sum(axis=-1, keepdims=True)
-    volume6 = (a * bc).sum(axis=-1)
-    area2 = length(ab) + length(bc) + length(ca) + length(ab + bc + ca)
-    circum = length(square(a) * bc + square(b) * ca + square(c) * ab)
+    # Component by component: numpy's own cross product takes many times as long.
+    a, b, c = (tuple(corners[..., i, k] - corners[..., 0, k] for k in range(3)) for i in (1, 2, 3))
+    cross = lambda u, v: (u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0])
+    dot = lambda u, v: u[0] * v[0] + u[1] * v[1] + u[2] * v[2]
+    length = lambda v: np.sqrt(dot(v, v))
+    ab, bc, ca = cross(a, b), cross(b, c), cross(c, a)
+    volume6 = dot(a, bc)
+    area2 = length(ab) + length(bc) + length(ca) + length([p + q + r for p, q, r in zip(ab, bc, ca)])
+    aa, bb, cc = dot(a, a), dot(b, b), dot(c, c)
+    circum = length([aa * p + bb * q + cc * r for p, q, r in zip(bc, ca, ab)])
     return 6.0 * volume6 * np.abs(volume6) / (area2 * circum)  # r = 6V / (2A), R = |...| / (12V)
 
 

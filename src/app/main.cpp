@@ -11,6 +11,7 @@
 #include <map>
 
 #include "app/adjoint.hpp"
+#include "app/companion.hpp"
 #include "app/verbs.hpp"
 #include "core/error.hpp"
 #include "core/log.hpp"
@@ -57,6 +58,8 @@ const CLI::Option* add_run_arguments(CLI::App& verb, CaseArguments& arguments) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  // A program of its own, which wants no MPI; its options are its own, too.
+  if (argc > 1 && std::string(argv[1]) == "mesh") return become_companion("mesh.py", argc, argv);
   std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error like a full disk, not the end
   const MpiSession mpi(argc, argv);
   const Communicator comm;
@@ -70,6 +73,8 @@ int main(int argc, char** argv) {
   app.fallthrough();
   bool quiet = false;
   app.add_flag("-q,--quiet", quiet, "Only warnings and errors");
+
+  app.add_subcommand("mesh", "From the description of a missile to its mesh, case file and picture");
 
   CaseArguments arguments;
   auto& run = *app.add_subcommand("run", "Steady state, motion and derivatives of a case");

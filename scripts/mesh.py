@@ -1,0 +1,95 @@
+#!/usr/bin/python3
+"""From the description of a missile to its mesh, its case file and a picture.
+
+  mesh.py DESCRIPTION -o FOLDER     writes FOLDER/LEVEL.msh for each level, FOLDER/case.toml, FOLDER/picture.png, FOLDER/report.txt
+  mesh.py --keys                    every key of a description with its meaning and default
+
+A description is a TOML file:
+
+  unit = "m"
+  [flight]
+  mach = [1.5, 2.5]                 # the lowest and the highest Mach number that the mesh is for
+  [[body]]
+  shape = "tangent_ogive"
+  length = 0.3
+  diameter = 0.1
+  [[body]]
+  shape = "cylinder"
+  length = 1.0
+  [[fins]]
+  number = 4
+  roll = 45
+  x_end = 1.3
+  root_chord = 0.15
+  tip_chord = 0.1
+  span = 0.1
+  thickness_ratio = 0.05
+
+Exit codes: 0 everything is written, 1 an error, 2 wrong command line. Needs Debian's python3-gmsh, python3-numpy and
+python3-matplotlib (hence /usr/bin/python3).
+"""
+
+from __future__ import annotations
+
+import argparse
+import re
+import sys
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+
+try:
+    from meshing import program
+except ImportError as error:
+    sys.exit(f"alphadot mesh: {error}; install the Debian packages python3-gmsh, python3-numpy and python3-matplotlib")
+
+
+def mach_range(text: str) -> tuple[float, float]:
+    """LOW:HIGH, or one number."""
+    if not re.fullmatch(r"[0-9.]+(:[0-9.]+)?", text):
+        raise argparse.ArgumentTypeError(f"'{text}' is not LOW:HIGH, such as 1.5:2.5")
+    values = [float(part) for part in text.split(":")]
+    if not 0.0 < values[0] <= values[-1] <= 30.0:
+        raise argparse.ArgumentTypeError(f"'{text}': the lowest Mach number, above 0, comes first, and 30 is the highest possible")
+    return values[0], values[-1]
+
+
+def cell_count(text: str) -> int:
+    """A number of cells; 2e5 will do."""
+    try:
+        value = int(float(text))
+    except (ValueError, OverflowError):
+        raise argparse.ArgumentTypeError(f"'{text}' is not a number of cells") from None
+    if not program.FEWEST <= value <= program.MOST:
+        raise argparse.ArgumentTypeError(f"{text} cells: it makes {program.FEWEST:,} to {program.MOST:,}")
+    return value
+
+
+def parse() -> argparse.Namespace:
+    parser = argparse.ArgumentParser(
+        prog="alphadot mesh", description=__doc__.replace("mesh.py", "alphadot mesh"),
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )  # fmt: skip
+    parser.add_argument("description", type=Path, nargs="?", metavar="DESCRIPTION", help="missile.toml")
+    parser.add_argument("-o", "--output", type=Path, metavar="FOLDER", help="default: the description's name, here")
+    sizes = parser.add_mutually_exclusive_group()
+    levels = ", ".join(f"{name} {cells:,}" for name, cells in program.LEVELS.items())
+    sizes.add_argument(
+        "--level", nargs="+", choices=program.LEVELS, default=["coarse"], metavar="LEVEL",
+        help=f"one, or up to three for the uncertainty of the mesh; cells of a half model: {levels} (default: coarse)",
+    )  # fmt: skip
+    sizes.add_argument("--cells", type=cell_count, metavar="N", help="tetrahedra of the mesh instead of a level's")
+    parser.add_argument("--mach", type=mach_range, metavar="LOW:HIGH", help="in place of the description's range")
+    parser.add_argument("--model", choices=program.MODELS, help="default: half where the missile is symmetric about y = 0")
+    parser.add_argument("--no-picture", action="store_true", help="leave out the picture")
+    parser.add_argument("--keys", action="store_true", help="print every key of a description, and end")
+    arguments = parser.parse_args()
+    if arguments.description is None and not arguments.keys:
+        parser.error("give a description, or --keys")
+    if len(arguments.level) > 3:
+        parser.error("at most three levels: the mesh of the case and one or two coarser ones")
+    return arguments
+
+
+if __name__ == "__main__":
+    sys.exit(program.main(parse()))

@@ -1,0 +1,94 @@
+"""What `alphadot mesh` does: reads a description, makes the meshes, writes them with case file, report and picture."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import sys
+import time
+from dataclasses import replace
+from pathlib import Path
+
+import gmsh
+
+from meshing.case_file import case_text
+from meshing.description import describe_keys, read_description
+from meshing.files import write
+from meshing.mesher import LEVELS, MODELS, Made, make_mesh
+from meshing.missile import Flight, Missile
+from meshing.tetrahedra import MeshError
+
+FEWEST, MOST = 5_000, 5_000_000  # cells
+
+
+def main(arguments: argparse.Namespace) -> int:
+    """The exit code; see mesh.py."""
+    if arguments.keys:
+        print(describe_keys(), end="")
+        return 0
+    try:
+        missile = read_description(arguments.description)
+        if arguments.mach:
+            missile = replace(missile, flight=Flight(arguments.mach, missile.flight.alpha))
+        write_all(missile, arguments)
+    except (MeshError, OSError) as error:
+        for line in str(error).splitlines():
+            print(f"alphadot mesh: error: {line}", file=sys.stderr)
+        return 1
+    return 0
+
+
+def write_all(missile: Missile, arguments: argparse.Namespace) -> None:
+    """Makes and writes everything; each file appears under its name when it is complete."""
+    folder = arguments.output or Path(arguments.description.stem)
+    folder.mkdir(parents=True, exist_ok=True)
+    model = arguments.model
+    wanted = [("mesh", arguments.cells)] if arguments.cells else levels(arguments.level, missile, model)
+    lines = [missile.title, *missile.notes]
+    first: Made | None = None
+    gmsh.initialize(readConfigFiles=False)  # a user's settings would change the mesh
+    gmsh.option.setNumber("General.Terminal", 0)
+    try:
+        for name, cells in wanted:
+            start = time.process_time()
+            made = made_or_refused(missile, model, cells)
+            first = first or made
+            write(made.mesh, folder / f"{name}.msh")
+            lines += ["", f"{name}.msh: {made.model} model, {time.process_time() - start:.1f} s of processor"]
+            lines += ["  " + line for line in made.report]
+    finally:
+        gmsh.finalize()
+    files = [f"{name}.msh" for name, _ in wanted]
+    put(folder / "case.toml", case_text(missile, first, files[0], files[1:], arguments.description.name))
+    put(folder / "report.txt", "\n".join(lines) + "\n")
+    print("\n".join(lines))
+    if not arguments.no_picture:
+        from meshing.picture import draw  # matplotlib takes a while to come
+
+        draw(missile, first, folder / "picture.part.png")
+        os.replace(folder / "picture.part.png", folder / "picture.png")
+    print(f"\nwritten to {folder}: {', '.join(files)}, case.toml, report.txt" + ("" if arguments.no_picture else ", picture.png"))
+    print(f"next: alphadot derivatives {folder / 'case.toml'} --set freestream.mach={missile.flight.mach[1]:g}")
+
+
+def levels(names: list[str], missile: Missile, model: str | None) -> list[tuple[str, int]]:
+    """Levels with their numbers of cells, the finest first; twice as many for a full model."""
+    full = model == "full" or (model is None and not missile.is_symmetric(1))
+    return sorted(((name, LEVELS[name] * (2 if full else 1)) for name in set(names)), key=lambda level: -level[1])
+
+
+def made_or_refused(missile: Missile, model: str | None, cells: int) -> Made:
+    """The mesh, or a MeshError; gmsh raises bare exceptions."""
+    try:
+        return make_mesh(missile, model, cells)
+    except MeshError:
+        raise
+    except Exception as error:
+        raise MeshError(f"gmsh could not mesh '{missile.title}': {error}; does a fin touch another, or a sharp corner of the body?") from error
+
+
+def put(path: Path, text: str) -> None:
+    """A text file that appears when it is complete."""
+    partial = path.with_name(path.name + ".part")
+    partial.write_text(text)
+    os.replace(partial, path)

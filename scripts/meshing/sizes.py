@@ -1,0 +1,152 @@
+"""The size of cells wanted at a point, in units of the wall's size h: small at noses, edges and fins, capped where waves come from.
+
+Lengths in diameters of the body. Everything is proportional to h, so that meshes of different h are one family. In supersonic flow
+cells matter only inside the domain of dependence of the body: inside the bow shock, and ahead of the Mach lines that reach its tail.
+Coarse cells there scatter the loads, above all Cm_alphadot, from mesh to mesh: `CAP` bounds them. Ahead of the nose and behind the
+tail nothing comes back, and cells grow twice as fast.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from meshing.domain import Domain
+from meshing.missile import Missile, Panel
+from meshing.profiles import fine
+from meshing.sector import Sector
+
+CAP = 2.5  # wall sizes, inside the domain of dependence
+BEYOND = 1.06  # of the tangent of the shock's angle
+TAIL = 0.8  # diameters around the tail
+FARTHEST = 14.0  # in frusta, wall sizes
+PER_VOLUME = 9.0  # tetrahedra in the cube of the size, as gmsh makes them
+USUAL = 0.08  # h for which the growth is made, in diameters
+THINNEST = 12.0  # thicknesses of a blunt edge that a cell beside it may be long, at h = 0.08 d
+
+
+class SizeField:
+    """The function itself: `__call__` takes points (n, 3), and gives the sizes (n,) in units of h.
+
+    `stretch`: distances over which cells grow are so many times as long, that cells of a larger h do not grow too fast.
+    """
+
+    def __init__(self, missile: Missile, domain: Domain, stretch: float = 1.0) -> None:
+        self.missile, self.domain, self.stretch = missile, domain, stretch
+        body = missile.body
+        outline = body.outline()
+        step = np.linspace(0.0, body.length, 2001)
+        self._x, self._r = step, np.interp(step, outline[:, 0], outline[:, 1])
+        self._largest = float(self._r.max())
+        self._tail = max([body.length, *(float(p.x + p.planform.trail.max()) for p in missile.panels)])
+        self._breaks = self._find_breaks()
+
+    def _find_breaks(self) -> list[tuple[float, float, float]]:
+        """Corners of the profile where the flow turns by more than 3 degrees: x, r and the size there."""
+        pieces = [fine(piece.points) for segment in self.missile.body.segments for piece in segment.pieces]
+        breaks = []
+        for one, other in zip(pieces, pieces[1:]):
+            turns = [math.atan2(*(line[1] - line[0])[::-1]) for line in (one[-2:], other[:2])]
+            if np.any(np.abs(one[-1] - other[0]) > 1e-9):  # a step
+                breaks += [(*one[-1], 0.4), (*other[0], 0.4)]
+            elif abs(turns[1] - turns[0]) > math.radians(3.0):
+                breaks.append((*one[-1], 0.6))
+        return [(float(x), float(r), size) for x, r, size in breaks]
+
+    def _grown(self, start: np.ndarray | float, distance: np.ndarray) -> np.ndarray:
+        distance = distance / self.stretch
+        if self.domain.arc:
+            return start + 2.0 * distance + 0.25 * np.minimum(distance, 5.0) * distance
+        return start + 2.0 * distance + distance**2
+
+    def __call__(self, points: np.ndarray) -> np.ndarray:
+        x = points[:, 0]
+        r = np.hypot(points[:, 1], points[:, 2])
+        pace = 1.0 if self.domain.arc else 2.0
+        ahead, behind = pace * np.maximum(-x, 0.0), pace * np.maximum(x - self._tail, 0.0)
+        radius = np.interp(x, self._x, self._r)
+        # The nose: smaller with the local circumference.
+        surface = 0.15 + 0.85 * np.minimum(radius / (0.7 * self._largest), 1.0)
+        distance = np.sqrt(ahead**2 + behind**2 + np.maximum(r - radius, 0.0) ** 2)
+        wanted = self._grown(surface, distance)
+        for at, corner, size in self._breaks:
+            wanted = np.minimum(wanted, size + 2.0 * np.hypot(x - at, r - corner))
+        wanted = self._capped(wanted, x, r, behind)
+        for panel in self.missile.panels:
+            wanted = np.minimum(wanted, self._near_panel(panel, points, behind))
+        return np.minimum(wanted, FARTHEST / self.stretch) if not self.domain.arc else wanted
+
+    def _capped(self, wanted: np.ndarray, x: np.ndarray, r: np.ndarray, behind: np.ndarray) -> np.ndarray:
+        """The cap in the domain of dependence, and growth from its edge."""
+        shock = self.domain.shock
+        if shock is None:
+            return wanted
+        outside = np.maximum(
+            (r - BEYOND * shock.radius(x)) * math.cos(math.radians(shock.angle)),
+            (r - TAIL - (self._tail - x) / self.domain.beta) * self.domain.beta / math.hypot(1.0, self.domain.beta),
+        )
+        outside = np.maximum(np.maximum(outside, 0.0), behind)
+        return np.minimum(wanted, CAP + 5.0 / self.stretch * outside)
+
+    def _near_panel(self, panel: Panel, points: np.ndarray, behind: np.ndarray) -> np.ndarray:
+        plan = panel.planform
+        local = panel.to_local(points)
+        x, s, n = local[:, 0], local[:, 1] - panel.root, np.abs(local[:, 2])
+        inside = np.clip(s, 0.0, plan.span)
+        lead, trail = np.interp(inside, plan.s, plan.lead), np.interp(inside, plan.s, plan.trail)
+        beyond = np.maximum(s - plan.span, 0.0) + np.maximum(-s - panel.root, 0.0)
+        along = np.maximum(np.maximum(lead - x, x - trail), 0.0)
+        distance = np.sqrt(along**2 + beyond**2 + n**2 + behind**2)
+        scale = min(1.0, 1.1 * min(float(plan.area / plan.span), 1.3 * plan.span)) ** 0.75
+        size = 0.75 * scale
+        wanted = self._grown(size, distance)
+        edge = 0.45 * size
+        across = np.sqrt(n**2 + beyond**2)
+        leading = np.hypot(x - lead, across)
+        tip = np.sqrt((s - plan.span) ** 2 + n**2 + np.maximum(np.maximum(plan.lead[-1] - x, x - plan.trail[-1]), 0.0) ** 2)
+        wanted = np.minimum(wanted, np.minimum(edge + 1.5 * leading, edge + 1.5 * tip))
+        trailing = np.hypot(x - trail, across)
+        end = edge
+        if panel.section.blunt:
+            end = min(edge, max(THINNEST * float(plan.thickness.min()), 0.25 * edge))
+        return np.minimum(wanted, end + 1.5 * trailing)
+
+    def cells(self, sector: Sector) -> float:
+        """Number of tetrahedra in a sector for h = 1, by the integral of the inverse cube of the size."""
+        points, volumes = self._sampling(sector)
+        return PER_VOLUME * float(np.sum(volumes / self(points) ** 3))
+
+    def _sampling(self, sector: Sector) -> tuple[np.ndarray, np.ndarray]:
+        """Points in a sector of the fluid, and the volume that each stands for; closer together near the wall."""
+        length, profile = self.missile.body.length, self.domain.profile
+        first, last = float(profile[:, 0].min()), float(profile[:, 0].max())
+        out = lambda end, start: start + (end - start) * np.linspace(0.0, 1.0, 30)[1:] ** 2
+        x = np.unique(np.concatenate([np.linspace(0.0, self._tail, 121), out(first, 0.0), out(last, self._tail)]))
+        middle, width = 0.5 * (x[1:] + x[:-1]), np.diff(x)
+        if self.domain.arc:
+            top = np.sqrt(np.maximum((0.5 * (last - first)) ** 2 - (middle - 0.5 * length) ** 2, 0.0))
+        else:
+            top = np.interp(middle, profile[1:3][::-1, 0], profile[1:3][::-1, 1])
+        bottom = np.where((middle > 0.0) & (middle < length), np.interp(middle, self._x, self._r), 0.0)
+        t = np.linspace(0.0, 1.0, 41) ** (4.0 if self.domain.arc else 2.0)
+        radii = bottom[:, None] + (top - bottom)[:, None] * t
+        ring = 0.5 * (radii[:, 1:] ** 2 - radii[:, :-1] ** 2) * width[:, None]
+        mean = 0.5 * (radii[:, 1:] + radii[:, :-1])
+        begin, end = sector.angles
+        count = max(int(round((end - begin) / 5.0)), 1)
+        step = math.radians(end - begin) / count
+        angle = math.radians(begin) + step * (np.arange(count) + 0.5)
+        shape = (*mean.shape, count)
+        xs = np.broadcast_to(middle[:, None, None], shape)
+        points = np.stack([xs, mean[:, :, None] * np.cos(angle), mean[:, :, None] * np.sin(angle)], axis=-1)
+        return points.reshape(-1, 3), np.broadcast_to((ring * step)[:, :, None], shape).reshape(-1)
+
+
+def size_field(missile: Missile, domain: Domain, sector: Sector, cells: float) -> SizeField:
+    """The size field of a missile, stretched for meshes of about `cells` tetrahedra in the sector."""
+    stretch = 1.0
+    for _ in range(2):
+        h = (SizeField(missile, domain, stretch).cells(sector) / cells) ** (1.0 / 3.0)
+        stretch = max(h / USUAL, 1.0)
+    return SizeField(missile, domain, stretch)
