@@ -14,7 +14,7 @@ import numpy as np
 
 from meshing.domain import Domain
 from meshing.missile import Missile, Panel
-from meshing.profiles import Body
+from meshing.profiles import Body, fine
 from meshing.sector import Sector
 from meshing.tetrahedra import MeshError
 
@@ -24,7 +24,7 @@ FLAT = 1e-9  # diameters off its plane
 def build_fluid(missile: Missile, domain: Domain, sector: Sector) -> None:
     """Make the fluid in the sector the current gmsh model. Raises MeshError where a fin cannot be made."""
     occ = gmsh.model.occ
-    fluids = _revolved(_profile_face(_fluid_curves(missile.body, domain)), sector)
+    fluids = _revolved(_profile_face(_fluid_curves(missile.body, domain)), _divisions(sector, missile.panels))
     panels = [panel for panel in missile.panels if sector.holds(panel)]
     if panels:
         tools = []
@@ -34,10 +34,8 @@ def build_fluid(missile: Missile, domain: Domain, sector: Sector) -> None:
             tools += [entity for entity in outside if entity[0] == 3]
         fluids, _ = occ.cut(fluids, tools)
         fluids = [entity for entity in fluids if entity[0] == 3]
-    if len(fluids) > 1:
-        fluids, _ = occ.fragment(fluids[:1], fluids[1:])
     occ.synchronize()
-    if len(gmsh.model.getEntities(3)) != (2 if sector.share == 1.0 else 1):
+    if len(gmsh.model.getEntities(3)) != 1:
         raise MeshError(f"the fluid falls into {len(gmsh.model.getEntities(3))} parts: do fins touch each other or the far field?")
 
 
@@ -90,19 +88,41 @@ def _profile_face(curves: list[int]) -> int:
     return occ.addPlaneSurface([occ.addCurveLoop(curves)])
 
 
-def _revolved(face: int, sector: Sector) -> list[tuple[int, int]]:
-    """The solid, or the two halves of all around, that the face sweeps about the axis."""
+def _revolved(face: int, angles: list[float]) -> list[tuple[int, int]]:
+    """The solid that the face sweeps about the axis from the first of some angles to the last, its surfaces divided at the others;
+    degrees from starboard (y) towards up (z)."""
     occ = gmsh.model.occ
-    begin, end = (math.radians(angle) for angle in sector.angles)
-    halves = [(begin, min(end, begin + math.pi))] + ([(begin + math.pi, end)] if end > begin + math.pi + 1e-9 else [])
-    faces = [(2, face)] + [occ.copy([(2, face)])[0] for _ in halves[1:]]
     solids = []
-    for one, (start, stop) in zip(faces, halves):
-        if start != 0.0:
-            occ.rotate([one], 0, 0, 0, 1, 0, 0, start)
-        swept = occ.revolve([one], 0, 0, 0, 1, 0, 0, stop - start)
+    for begin, end in zip(angles, angles[1:]):
+        one = occ.copy([(2, face)])[0]
+        occ.rotate([one], 0, 0, 0, 1, 0, 0, math.radians(begin))
+        swept = occ.revolve([one], 0, 0, 0, 1, 0, 0, math.radians(end - begin))
         solids += [entity for entity in swept if entity[0] == 3]
+    occ.remove([(2, face)], recursive=False)
+    gmsh.option.setNumber("Geometry.OCCUnionUnify", 0)  # keeps the divisions
+    if len(solids) > 1:
+        solids, _ = occ.fuse(solids[:1], solids[1:])
     return solids
+
+
+def _divisions(sector: Sector, panels: tuple[Panel, ...]) -> list[float]:
+    """Angles at which the surfaces in a sector are divided, its ends among them: as far as possible from all panels.
+
+    An undivided half around the tip of the nose may be closed by one flat triangle, which lies in the plane of symmetry.
+    """
+    begin, end = sector.angles
+    taken = np.array([90.0 - panel.roll for panel in panels])
+
+    def apart(angle: float, period: float) -> float:
+        return float(np.min(np.abs((angle - taken + 0.5 * period) % period - 0.5 * period), initial=period))
+
+    if end - begin <= 90.0:
+        return [begin, end]
+    if end - begin <= 180.0:
+        middle = max(np.arange(begin + 60.0, end - 59.0, 3.0), key=lambda angle: apart(angle, 360.0))
+        return [begin, float(middle), end]
+    first = float(max(np.arange(0.0, 90.0, 3.0), key=lambda angle: apart(angle, 90.0)))
+    return [first + 90.0 * i for i in range(5)]
 
 
 def _body_half(body: Body, panel: Panel) -> list[tuple[int, int]]:
@@ -116,7 +136,7 @@ def _body_half(body: Body, panel: Panel) -> list[tuple[int, int]]:
     else:
         curves.append(occ.addLine(last, first))
     direction = 90.0 - panel.roll
-    return _revolved(_profile_face(curves), Sector("", (direction - 90.0, direction + 90.0), ()))
+    return _revolved(_profile_face(curves), [direction - 90.0, direction + 90.0])
 
 
 def _inner_end(panel: Panel, body: Body) -> float:
@@ -255,17 +275,19 @@ class Classifier:
 
     def __init__(self, missile: Missile, domain: Domain, sector: Sector) -> None:
         self.missile, self.domain, self.sector = missile, domain, sector
-        self._outline = missile.body.outline()
+        self._outlines = {
+            segment.name: np.concatenate([fine(piece.points) for piece in segment.pieces]) for segment in missile.body.segments
+        }
 
     def __call__(self, points: np.ndarray) -> str:
-        """The patch of a face, from all its mesh points (n, 3): "symmetry_y", "symmetry_z", "farfield", "base", "step", "inside",
-        a segment's name, or that of a set of fins."""
+        """The patch of a face, from all its mesh points (n, 3): "symmetry_y", "symmetry_z", "farfield", "base", a
+        segment's name, or that of a set of fins."""
         x, y, z = points.T
         r = np.hypot(y, z)
         body = self.missile.body
         for axis, name in ((1, "symmetry_y"), (2, "symmetry_z")):
-            if np.all(np.abs(points[:, axis]) < 1e-7):
-                return name if axis in self.sector.planes else "inside"
+            if axis in self.sector.planes and np.all(np.abs(points[:, axis]) < 1e-7):
+                return name
         if self._is_far(x, r):
             return "farfield"
         if np.ptp(x) < 1e-7:
@@ -274,9 +296,10 @@ class Classifier:
             step = self._step_at(float(x[0]))
             if step and r.min() > step[0] - 1e-6 and r.max() < step[1] + 1e-6:
                 return step[2]
-        if np.all(np.abs(r - np.interp(x, self._outline[:, 0], self._outline[:, 1])) < 2e-4) and x.max() < body.length + 1e-6:
-            middle = 0.5 * (x.min() + x.max())
-            return next(s.name for s in body.segments if middle <= s.end[0] + 1e-9)
+        for name, outline in self._outlines.items():
+            within = x.min() > outline[0, 0] - 1e-6 and x.max() < outline[-1, 0] + 1e-6
+            if within and np.all(np.abs(r - np.interp(x, outline[:, 0], outline[:, 1])) < 2e-4):
+                return name
         return self._fin(points)
 
     def _is_far(self, x: np.ndarray, r: np.ndarray) -> bool:

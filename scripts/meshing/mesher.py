@@ -80,7 +80,6 @@ def mesh_sector(missile: Missile, domain: Domain, sector: Sector, sizes: SizeFie
         parts.setdefault(classify(points[triangles.ravel()]), []).append(triangles)
     tets = row[gmsh.model.mesh.getElementsByType(4)[1].astype(np.int64)].reshape(-1, 4)
     gmsh.model.remove()
-    parts.pop("inside", None)
     mesh = TetMesh(points, tets, {name: np.concatenate(patch) for name, patch in parts.items()})
     for axis in sector.planes:
         points[mesh.patches[PLANES[axis]], axis] = 0.0

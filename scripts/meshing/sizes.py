@@ -22,6 +22,7 @@ BEYOND = 1.06  # of the tangent of the shock's angle
 TAIL = 0.8  # diameters around the tail
 FARTHEST = 14.0  # in frusta, wall sizes
 PER_VOLUME = 9.0  # tetrahedra in the cube of the size, as gmsh makes them
+REACH = 2.0  # diameters around a panel beyond which it does not matter
 USUAL = 0.08  # h for which the growth is made, in diameters
 THINNEST = 12.0  # thicknesses of a blunt edge that a cell beside it may be long, at h = 0.08 d
 
@@ -74,7 +75,8 @@ class SizeField:
             wanted = np.minimum(wanted, size + 2.0 * np.hypot(x - at, r - corner))
         wanted = self._capped(wanted, x, r, behind)
         for panel in self.missile.panels:
-            wanted = np.minimum(wanted, self._near_panel(panel, points, behind))
+            near = self._around(panel, x, r)
+            wanted[near] = np.minimum(wanted[near], self._near_panel(panel, points[near], behind[near]))
         return np.minimum(wanted, FARTHEST / self.stretch) if not self.domain.arc else wanted
 
     def _capped(self, wanted: np.ndarray, x: np.ndarray, r: np.ndarray, behind: np.ndarray) -> np.ndarray:
@@ -88,6 +90,14 @@ class SizeField:
         )
         outside = np.maximum(np.maximum(outside, 0.0), behind)
         return np.minimum(wanted, CAP + 5.0 / self.stretch * outside)
+
+    def _around(self, panel: Panel, x: np.ndarray, r: np.ndarray) -> np.ndarray:
+        """The points at which a panel may matter: a few diameters around it."""
+        plan, wide = panel.planform, REACH * self.stretch
+        return np.flatnonzero(
+            (x > panel.x + plan.lead.min() - wide) & (x < panel.x + plan.trail.max() + wide)
+            & (r < panel.tip + math.hypot(*panel.origin) + wide)
+        )  # fmt: skip
 
     def _near_panel(self, panel: Panel, points: np.ndarray, behind: np.ndarray) -> np.ndarray:
         plan = panel.planform
@@ -121,20 +131,20 @@ class SizeField:
         """Points in a sector of the fluid, and the volume that each stands for; closer together near the wall."""
         length, profile = self.missile.body.length, self.domain.profile
         first, last = float(profile[:, 0].min()), float(profile[:, 0].max())
-        out = lambda end, start: start + (end - start) * np.linspace(0.0, 1.0, 30)[1:] ** 2
-        x = np.unique(np.concatenate([np.linspace(0.0, self._tail, 121), out(first, 0.0), out(last, self._tail)]))
+        out = lambda end, start: start + (end - start) * np.linspace(0.0, 1.0, 20)[1:] ** 2
+        x = np.unique(np.concatenate([np.linspace(0.0, self._tail, 91), out(first, 0.0), out(last, self._tail)]))
         middle, width = 0.5 * (x[1:] + x[:-1]), np.diff(x)
         if self.domain.arc:
             top = np.sqrt(np.maximum((0.5 * (last - first)) ** 2 - (middle - 0.5 * length) ** 2, 0.0))
         else:
             top = np.interp(middle, profile[1:3][::-1, 0], profile[1:3][::-1, 1])
         bottom = np.where((middle > 0.0) & (middle < length), np.interp(middle, self._x, self._r), 0.0)
-        t = np.linspace(0.0, 1.0, 41) ** (4.0 if self.domain.arc else 2.0)
+        t = np.linspace(0.0, 1.0, 33) ** (4.0 if self.domain.arc else 2.0)
         radii = bottom[:, None] + (top - bottom)[:, None] * t
         ring = 0.5 * (radii[:, 1:] ** 2 - radii[:, :-1] ** 2) * width[:, None]
         mean = 0.5 * (radii[:, 1:] + radii[:, :-1])
         begin, end = sector.angles
-        count = max(int(round((end - begin) / 5.0)), 1)
+        count = max(int(round((end - begin) / 7.5)), 1)
         step = math.radians(end - begin) / count
         angle = math.radians(begin) + step * (np.arange(count) + 0.5)
         shape = (*mean.shape, count)
