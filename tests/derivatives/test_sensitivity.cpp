@@ -83,6 +83,63 @@ TEST_P(SensitivityTest, IsTheDerivativeOfSteadyStates) {
   EXPECT_NEAR(norm(response.total.moment - difference.moment), 0, 1e-6);
 }
 
+/// The ramp between open sides, so that it may roll; the wind turns with it about a point above the wall. It
+/// comes from below and from the side: a far field along the wind, neither inflow nor outflow, switches
+/// between the two, and has no derivative.
+struct OpenRamp {
+  static constexpr Real alpha = 0.05, beta = 0.1;
+  static constexpr Vec3 axis{0.3, 0.02, 0.1};
+  static BoxSides sides() {
+    auto out = ramp_sides();
+    out[2] = out[3] = BoundaryKind::farfield;
+    return out;
+  }
+  static Conditions<Real> conditions(Real more_alpha, const Vec3& rotation) {
+    return steady_conditions(wind_velocity(ramp_mach, alpha + more_alpha, beta), axis, gamma_air, rotation);
+  }
+};
+
+// The variables of flight, against steady flows a little to either side, as above: alpha by a body that
+// sinks, but by a wind that is turned in the differences, which is the same to an observer who sinks with the
+// body; q and p by steady rotation.
+TEST_P(SensitivityTest, IsTheDerivativeOfSteadyStatesInFlight) {
+  constexpr Real step = 1e-6;
+  const BoxCase box(ramp_mesh(8), OpenRamp::sides(), {.freeze_orders = 0}, comm);
+  const auto conditions = OpenRamp::conditions(0, {});
+  SteadyFlow middle(box, conditions, 12);
+  // d(wind)/d(alpha) at constant speed; the body moves the other way.
+  const Vec3 turned = (0.5 / step) * (wind_velocity(ramp_mach, OpenRamp::alpha + step, OpenRamp::beta) -
+                                      wind_velocity(ramp_mach, OpenRamp::alpha - step, OpenRamp::beta));
+  const Vec3 pitching{0, 1, 0}, rolling{-1, 0, 0};
+  const auto responses =
+      SensitivitySolver(middle.iteration, conditions, options())
+          .solve({{"alpha", {{}, -1 * turned, {}}}, {"q", {{}, {}, pitching}}, {"p", {{}, {}, rolling}}});
+  const auto expect_difference = [&](const Sensitivity& response, Real alpha, const Vec3& rotation,
+                                     const Vec3& observer) {
+    SCOPED_TRACE(response.name);
+    const SteadyFlow above(box, OpenRamp::conditions(alpha * step, step * rotation), 12);
+    const SteadyFlow below(box, OpenRamp::conditions(-alpha * step, -step * rotation), 12);
+    for (const auto* steady : {&above, &below}) ASSERT_EQ(steady->result.status, RunStatus::converged);
+    EXPECT_LT(response.relative_residual, 1e-8);
+    Real largest = 0;
+    for (Index cell = 0; cell < box.domain.owned_cells; ++cell) {
+      auto difference = (0.5 / step) * (above.iteration.flow()[cell] - below.iteration.flow()[cell]);
+      for (int d = 0; d < 3; ++d) difference[d + 1] += observer[d];
+      for (int i = 0; i < 5; ++i) {
+        EXPECT_NEAR(response.field[cell][i], difference[i], 1e-6);
+        largest = std::max(largest, std::abs(difference[i]));
+      }
+    }
+    EXPECT_GT(comm.max(largest), 0.05) << "a response that is there";
+    const Load difference = (0.5 / step) * (above.result.report.total - below.result.report.total);
+    EXPECT_NEAR(norm(response.total.force - difference.force), 0, 1e-6);
+    EXPECT_NEAR(norm(response.total.moment - difference.moment), 0, 1e-6);
+  };
+  expect_difference(responses[0], 1, {}, -1 * turned);
+  expect_difference(responses[1], 0, pitching, {});
+  expect_difference(responses[2], 0, rolling, {});
+}
+
 // The response to a rate solves (dR/dW) W_cdot = -V (dU/dW) W_c, whose left side is a difference of residuals
 // here.
 TEST_P(SensitivityTest, AnswersARateWithTheMassOfTheFlow) {

@@ -5,9 +5,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 #include <tuple>
+#include <utility>
+#include <vector>
 
+#include "linear/jacobian.hpp"
 #include "support/linearised.hpp"
 
 namespace alphadot {
@@ -88,16 +93,103 @@ TEST(PassOrder, GoesWithFlowThatIsSupersonicAlongX) {
   EXPECT_EQ(pass_order(-2.5), PassOrder::alternating);
 }
 
-// With a time step of some ten crossings of a cell and without one.
-TEST_P(BlockLuSgsTest, ReducesTheDefectWithEverySweep) {
+/// The same passes in double precision over blocks that are differences of whole residuals: rows are relaxed
+/// in the order in which they are stored, forward and backward, with ghosts renewed before every pass.
+class GaussSeidel {
+ public:
+  GaussSeidel(const BoxCase& box, FlowField<Real>& flow, FirstOrder& first_order, Real inverse_step)
+      : box_(box), inverse_diagonal_(box.cells()), neighbours_(box.cells()), x_(box.domain, box.comm) {
+    const Subdomain& domain = box.domain;
+    std::map<std::pair<GlobalIndex, Index>, std::array<Real, 25>> blocks;  // by column's id and row
+    for (GlobalIndex id = 0; id < domain.global_cells; ++id)
+      for (int column = 0; column < 5; ++column) {
+        std::vector<Primitive<Real>> unit(box.cells());
+        for (Index cell = 0; cell < domain.owned_cells; ++cell)
+          if (domain.cell_ids[cell] == id) unit[cell][column] = 1;
+        const auto product = first_order.derivative(flow, unit, short_step);
+        for (Index row = 0; row < domain.owned_cells; ++row) {
+          const bool is_diagonal = domain.cell_ids[row] == id;
+          auto entry = product[row];
+          if (is_diagonal)
+            entry += domain.volume[row] * inverse_step * conserved_change(flow[row], unit[row]);
+          for (int i = 0; i < 5; ++i)
+            if (entry[i] != 0) blocks[{id, row}][5 * column + i] = entry[i];
+        }
+      }
+    for (Index row = 0; row < domain.owned_cells; ++row) {
+      inverse_diagonal_[row] = inverse(blocks.at({domain.cell_ids[row], row}));
+      for (const Index face : domain.cell_faces[row]) {
+        const Index other =
+            domain.faces[face].left == row ? domain.faces[face].right : domain.faces[face].left;
+        neighbours_[row].emplace_back(other, blocks[{domain.cell_ids[other], row}]);
+      }
+    }
+  }
+
+  std::vector<Primitive<Real>> solve(const std::vector<Conserved<Real>>& right, int sweeps, PassOrder order) {
+    std::ranges::fill(x_.values(), Primitive<Real>{});
+    for (int pass = 0; pass < 2 * sweeps; ++pass) {
+      x_.exchange();
+      const bool is_backward = order == PassOrder::alternating ? pass % 2 == 1 : pass == sweeps;
+      for (Index i = 0; i < box_.domain.owned_cells; ++i)
+        relax(is_backward ? box_.domain.owned_cells - 1 - i : i, right);
+    }
+    return {x_.values().begin(), x_.values().begin() + box_.domain.owned_cells};
+  }
+
+ private:
+  static Five<Real> product(const std::array<Real, 25>& block, const Five<Real>& x) {
+    Five<Real> out;
+    for (int i = 0; i < 25; ++i) out[i % 5] += block[i] * x[i / 5];
+    return out;
+  }
+  void relax(Index row, const std::vector<Conserved<Real>>& right) {
+    auto sum = -1.0 * right[row];
+    for (const auto& [other, block] : neighbours_[row]) sum -= product(block, x_[other]);
+    x_[row] = product(inverse_diagonal_[row], sum);
+  }
+
+  static constexpr Real short_step = 1e-7;  // kinks of fluxes are as near as 1e-5
+
+  const BoxCase& box_;
+  std::vector<std::array<Real, 25>> inverse_diagonal_;
+  std::vector<std::vector<std::pair<Index, std::array<Real, 25>>>> neighbours_;
+  FlowField<Real> x_;
+};
+
+// With a time step of some ten crossings of a cell and without one: update for update what Gauss and Seidel's
+// passes make, hence also by as much nearer to the solution.
+TEST_P(BlockLuSgsTest, MakesThePassesOfGaussSeidel) {
+  constexpr Real single_precision = 1e-5;
   for (const Real inverse_step : {1.0, 0.0}) {
+    GaussSeidel reference(box, flow, first_order, inverse_step);
+    for (const PassOrder order : {PassOrder::alternating, PassOrder::downstream})
+      for (const int sweeps : {1, 2, 8}) {
+        const auto expected = reference.solve(right, sweeps, order);
+        const auto found = solve(sweeps, {.cfl = no_pseudo_time, .inverse_step = inverse_step}, order);
+        Real largest = 0, apart = 0;
+        for (std::size_t cell = 0; cell < found.size(); ++cell)
+          for (int i = 0; i < 5; ++i) {
+            largest = std::max(largest, std::abs(expected[cell][i]));
+            apart = std::max(apart, std::abs(expected[cell][i] - found[cell][i]));
+          }
+        EXPECT_LT(box.comm.max(apart), single_precision * box.comm.max(largest)) << sweeps << " sweeps";
+      }
+  }
+}
+
+// What MakesThePassesOfGaussSeidel shows to be theirs: sixteen sweeps leave a thousandth with a time step of
+// some ten crossings of a cell, 3 % without one, on up to four ranks, and every sweep gains.
+TEST_P(BlockLuSgsTest, ReducesTheDefectWithEverySweep) {
+  for (const auto& [inverse_step, most] : {std::pair{1.0, 1e-3}, std::pair{0.0, 0.03}}) {
     Real previous = 1;
     for (const int sweeps : {1, 2, 4, 8, 16}) {
       const Real now =
           defect(solve(sweeps, {.cfl = no_pseudo_time, .inverse_step = inverse_step}), inverse_step);
-      EXPECT_LT(now, previous) << sweeps << " sweeps";
+      EXPECT_LT(now, (sweeps == 1 ? 0.9 : 0.75) * previous) << sweeps << " sweeps";
       previous = now;
     }
+    EXPECT_LT(previous, most);
   }
 }
 

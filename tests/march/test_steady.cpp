@@ -66,15 +66,19 @@ TEST_P(Steady, DoesNotDependOnTheImplicitScheme) {
   expect_same(states(scalar, box), states(block, box), 1e-9);
 }
 
-// Supersonic flow along x, in which a forward pass carries a disturbance to the end.
+// Supersonic flow along x, in which a forward pass carries a disturbance to the end. At the first order,
+// whose derivative the blocks are: there the march waits for its linear solves alone.
 TEST_P(Steady, IsReachedSoonerByPassesDownstream) {
-  const BoxCase box(mesh, ramp_sides(), space, comm);
-  const SteadyFlow alternating(box, ramp_conditions(), orders);
-  const SteadyFlow downstream(
-      box, ramp_conditions(), orders,
-      std::make_unique<BlockLuSgs>(box.discretization, comm, 3, PassOrder::downstream));
+  auto first_order = space;
+  first_order.order = 1;
+  const BoxCase box(ramp_mesh(16), ramp_sides(), first_order, comm);
+  const auto march = [&](PassOrder order) {
+    return SteadyFlow(box, ramp_conditions(), orders,
+                      std::make_unique<BlockLuSgs>(box.discretization, comm, 2, order));
+  };
+  const SteadyFlow alternating = march(PassOrder::alternating), downstream = march(PassOrder::downstream);
   expect_same(states(downstream, box), states(alternating, box), 1e-9);
-  EXPECT_LE(downstream.result.iterations, alternating.result.iterations);
+  EXPECT_LT(downstream.result.iterations, alternating.result.iterations);
 }
 
 TEST_P(Steady, IsReachedByGmresAroundEitherScheme) {

@@ -31,16 +31,17 @@ class FirstOrder {
 
   /// dR/dW . direction about `flow`. Both are [owned_cells]; `flow` ends up as it was, but for round-off.
   std::vector<Conserved<Real>> derivative(FlowField<Real>& flow,
-                                          const std::vector<Primitive<Real>>& direction) {
-    const auto shift = [&](Real step) {
-      for (std::size_t i = 0; i < direction.size(); ++i) flow[static_cast<Index>(i)] += step * direction[i];
+                                          const std::vector<Primitive<Real>>& direction,
+                                          Real step = difference_step) {
+    const auto shift = [&](Real by) {
+      for (std::size_t i = 0; i < direction.size(); ++i) flow[static_cast<Index>(i)] += by * direction[i];
     };
-    shift(difference_step);
+    shift(step);
     auto out = at(flow);
-    shift(-2 * difference_step);
+    shift(-2 * step);
     const auto below = at(flow);
-    shift(difference_step);
-    for (std::size_t i = 0; i < out.size(); ++i) out[i] = (0.5 / difference_step) * (out[i] - below[i]);
+    shift(step);
+    for (std::size_t i = 0; i < out.size(); ++i) out[i] = (0.5 / step) * (out[i] - below[i]);
     return out;
   }
 
