@@ -1,7 +1,7 @@
 // A delta wing with 45 degrees of sweep and a double-wedge section 2 % thick, in a box of air. Lengths in root chords; x aft from
 // the apex, y to starboard, z up; the half y >= 0. gmsh -3 wing.geo -o wing.su2
 SetFactory("OpenCASCADE");
-span = 1; ridge = 0.01;
+span = 1; DefineConstant[ ridge = 0.01 ];  // half the thickness in the middle; gmsh -setnumber ridge 0.001 makes a thinner one
 Point(1) = {0, 0, 0};  Point(2) = {1, span, 0};  Point(3) = {1, 0, 0};
 Point(4) = {0.5, 0, ridge};  Point(5) = {0.5, 0, -ridge};
 Line(1) = {1, 2};  Line(2) = {2, 3};

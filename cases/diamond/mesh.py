@@ -28,11 +28,11 @@ def build(h: float, arguments: argparse.Namespace) -> tuple[meshing.TetMesh, lis
     if not 0.1 <= arguments.half_angle <= 5.0:
         raise meshing.MeshError(f"--half-angle {arguments.half_angle} is outside 0.1 to 5")
     height = 0.5 * math.tan(math.radians(arguments.half_angle))
-    return slab.mesh_slab([(0.0, 0.0), (0.5, height), (1.0, 0.0)], h)
+    return slab.mesh_slab([(0.0, 0.0), (0.5, height), (1.0, 0.0)], h, arguments.width)
 
 
 def main() -> None:
-    parser = meshing.command_line(__doc__, LEVELS, "chord")
+    parser = slab.command_line(__doc__, LEVELS)
     parser.add_argument("--half-angle", type=float, default=5.0, metavar="DEG", help="at both ends, 0.1 to 5 (default)")
 
     meshing.run(parser, LEVELS, build)

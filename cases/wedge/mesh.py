@@ -25,7 +25,7 @@ LEVELS = {"tiny": 1 / 20, "small": 1 / 40, "coarse": 1 / 80, "medium": 1 / 160} 
 
 def main() -> None:
     section = [(0.0, 0.0), (1.0, math.tan(math.radians(HALF_ANGLE)))]
-    meshing.run(meshing.command_line(__doc__, LEVELS, "chord"), LEVELS, lambda h, _arguments: slab.mesh_slab(section, h))
+    meshing.run(slab.command_line(__doc__, LEVELS), LEVELS, lambda h, arguments: slab.mesh_slab(section, h, arguments.width))
 
 
 if __name__ == "__main__":

@@ -7,6 +7,7 @@ half, from the leading edge at the origin to x = 1; it has a blunt base when the
 
 from __future__ import annotations
 
+import argparse
 import math
 
 import gmsh
@@ -16,7 +17,7 @@ import meshing
 
 Section = list[tuple[float, float]]
 
-LAYERS = 2  # of prisms across the slab; even
+LAYERS = 2  # of prisms across a slab as thin as h allows; even
 LAYER_HEIGHT = 0.9  # in h; gives the best tetrahedra from prisms over triangles of side h
 
 # Far field: the wedge z <= FAR_HEIGHT + tan(FAR_ANGLE) (x - FAR_START), outside the shocks of a 5-degree section for M >= 2 and
@@ -97,10 +98,23 @@ def extrude(flat: np.ndarray, triangles: np.ndarray, edges: dict[str, np.ndarray
     return meshing.oriented(meshing.TetMesh(points, tets, patches))
 
 
-def mesh_slab(section: Section, h: float) -> tuple[meshing.TetMesh, list[str]]:
-    """The whole section between the symmetry planes y = 0 and y = width, and lines for the report."""
-    width = LAYERS * LAYER_HEIGHT * h
-    heights = np.linspace(-0.5 * width, 0.0, LAYERS // 2 + 1)
+def command_line(doc: str, levels: dict[str, float]) -> argparse.ArgumentParser:
+    """The options of the generators of sections."""
+    parser = meshing.command_line(doc, levels, "chord")
+    parser.add_argument(
+        "--width", type=float, metavar="W", help=f"of the slab, {LAYERS * LAYER_HEIGHT:g} h by default; one for meshes to compare"
+    )
+    return parser
+
+
+def mesh_slab(section: Section, h: float, width: float | None = None) -> tuple[meshing.TetMesh, list[str]]:
+    """The whole section between the symmetry planes y = 0 and y = width, and lines for the report.
+
+    As many layers as come nearest to the best tetrahedra.
+    """
+    width = width or LAYERS * LAYER_HEIGHT * h
+    layers = 2 * max(round(0.5 * width / (LAYER_HEIGHT * h)), 1)
+    heights = np.linspace(-0.5 * width, 0.0, layers // 2 + 1)
     mesh = extrude(*triangulate(section, h), heights)
     mesh = meshing.mirrored(meshing.mirrored(mesh, 1, "middle"), 2, "plane")
     if not (meshing.is_symmetric(mesh, 1) and meshing.is_symmetric(mesh, 2)):

@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <filesystem>
+#include <numeric>
 #include <string>
 #include <utility>
 
@@ -43,10 +45,10 @@ std::vector<std::unique_ptr<FlowCase>> coarser_cases(const CaseArguments& argume
     try {
       auto coarser =
           std::make_unique<FlowCase>(on_mesh(arguments, finest, i), "derivatives", finest.communicator());
-      const auto fine = finer.setup().mesh.cells, coarse = coarser->setup().mesh.cells;
-      if (refinement_ratio(fine, coarse) < least_refinement_ratio)
+      if (spacing_of(*coarser) < least_refinement_ratio * spacing_of(finer))
         throw InputError(finest.settings().file, 0,
-                         fmt::format("{} cells are not coarser than the {} of the mesh before", coarse, fine),
+                         fmt::format("{} cells are not coarser than the {} of the mesh before",
+                                     coarser->setup().mesh.cells, finer.setup().mesh.cells),
                          "list meshes that become coarser by 1.3 in each direction");
       out.push_back(std::move(coarser));
     } catch (const InputError& error) {
@@ -56,16 +58,19 @@ std::vector<std::unique_ptr<FlowCase>> coarser_cases(const CaseArguments& argume
   return out;
 }
 
-DerivativeSetOf<MeshConvergence> add_mesh_part(EstimatedDerivatives& finest, GlobalIndex cells,
+Real spacing_of(const FlowCase& flow) {
+  const Subdomain& domain = flow.setup().domain;
+  const Real volume =
+      std::accumulate(domain.volume.begin(), domain.volume.begin() + domain.owned_cells, Real{0});
+  return std::cbrt(flow.communicator().sum(volume) / static_cast<Real>(domain.global_cells));
+}
+
+DerivativeSetOf<MeshConvergence> add_mesh_part(EstimatedDerivatives& finest, const FlowCase& flow,
                                                std::span<const MeshDerivatives> coarser) {
-  std::vector<MeshDerivatives> meshes{{cells, finest.derivatives}};
+  std::vector<MeshDerivatives> meshes{{spacing_of(flow), finest.derivatives}};
   meshes.insert(meshes.end(), coarser.begin(), coarser.end());
-  auto out = mesh_convergence(meshes);
-  DerivativeSetOf<Real> share;
-  for (const auto& [variable, column] : out)
-    for (int i = 0; i < column.size(); ++i) share[variable][i] = column[i].fine.uncertainty;
-  finest.add("mesh", std::move(share));
-  return out;
+  finest.add("mesh", mesh_uncertainty(meshes, flow.setup().configuration.body_length));
+  return mesh_convergence(meshes);
 }
 
 }  // namespace alphadot

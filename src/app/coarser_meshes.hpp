@@ -16,8 +16,11 @@ namespace alphadot {
 /// cannot be read, has other patches or is not coarser than the one before.
 std::vector<std::unique_ptr<FlowCase>> coarser_cases(const CaseArguments& arguments, const FlowCase& finest);
 
-/// Adds the part "mesh" to the uncertainties of the finest mesh: its grid convergence index.
-DerivativeSetOf<MeshConvergence> add_mesh_part(EstimatedDerivatives& finest, GlobalIndex cells,
+/// Mean spacing of a case's mesh, in its unit: the cube root of the cells' mean volume. Collective.
+Real spacing_of(const FlowCase& flow);
+
+/// Adds the part "mesh" to the uncertainties of the finest mesh.
+DerivativeSetOf<MeshConvergence> add_mesh_part(EstimatedDerivatives& finest, const FlowCase& flow,
                                                std::span<const MeshDerivatives> coarser);
 
 }  // namespace alphadot

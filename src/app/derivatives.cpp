@@ -112,8 +112,7 @@ void add(const DerivativeSetOf<MeshConvergence>& convergence, Result& result) {
       if (found == result.derivatives.end()) continue;
       const MeshConvergence& entry = column[i];
       found->second.mesh_convergence = {{"extrapolated", entry.extrapolated},
-                                        {"observed_order", entry.observed ? entry.order : not_measured},
-                                        {"safety_factor", entry.safety_factor}};
+                                        {"observed_order", entry.observed ? entry.order : not_measured}};
     }
 }
 
@@ -151,7 +150,7 @@ Outcome complete(FlowCase& flow, std::span<const MeshDerivatives> coarser) {
   if (!foundation_holds)
     for (const auto& [variable, column] : estimated.derivatives) estimated.unconverged.insert(variable);
   if (!estimated.derivatives.empty() && !coarser.empty())
-    convergence = add_mesh_part(estimated, flow.setup().mesh.cells, coarser);
+    convergence = add_mesh_part(estimated, flow, coarser);
 
   auto rows = rows_of(estimated.derivatives,
                       fmt::format("linear solve, k -> 0, {}", word_of(flow.settings().derivatives.method)),
@@ -196,7 +195,7 @@ std::optional<std::vector<MeshDerivatives>> complete_coarser(FlowCase& finest,
     }
     if (result.status == RunStatus::unconverged)
       finest.fall_short(fmt::format("on {}: {}", level->setup().mesh.file, result.message));
-    out.push_back({level->setup().mesh.cells, std::move(derivatives)});
+    out.push_back({spacing_of(*level), std::move(derivatives)});
   }
   return out;
 }

@@ -3,7 +3,10 @@
 
 from __future__ import annotations
 
+import itertools
 import json
+import math
+import statistics
 import tempfile
 import unittest
 from pathlib import Path
@@ -11,7 +14,39 @@ from pathlib import Path
 from program import CASE, RANKS, Outcome, box, gmsh_text, run, write_case
 
 RATIO = 6 / 4  # of the spacings of the two finer boxes
-FORMAL_ORDER, SAFETY = 2, 3  # Roache's for two meshes
+FORMAL_ORDER = 2
+FACTOR, LEVER = 2.75, 0.2  # src/analysis/mesh_convergence.hpp
+LOADS = ("CA", "CY", "CN", "Cl", "Cm", "Cn")
+KINDS = (("alpha", "beta"), ("p", "q", "r"), ("alphadot", "betadot"))
+
+
+def about(values: dict[str, float], dx: float) -> dict[str, float]:
+    """Derivatives about a centre, also of rotation, dx reference lengths aft: the old one then moves with q and r."""
+    get = lambda load, variable: values.get(f"{load}_{variable}", 0.0)
+    moved = {}
+    for variable in (name for kind in KINDS for name in kind):
+        column = {load: get(load, variable) for load in LOADS}
+        if variable == "q":
+            column = {load: value - 2 * dx * get(load, "alpha") for load, value in column.items()}
+        if variable == "r":
+            column = {load: value + 2 * dx * get(load, "beta") for load, value in column.items()}
+        column["Cm"] += dx * column["CN"]
+        column["Cn"] += dx * column["CY"]
+        moved |= {f"{load}_{variable}": value for load, value in column.items()}
+    return moved
+
+
+def half_widths(fine: dict[str, float], coarse: dict[str, float], body_length: float) -> dict[str, float]:
+    """FACTOR hypot(e, s E): e of differences, s of centres around, E the median of e / s over kinds of loads and variables."""
+    error = {name: abs(fine[name] - coarse[name]) / (RATIO**FORMAL_ORDER - 1) for name in fine}
+    before, behind = (about(fine, sign * LEVER * body_length) for sign in (-1, 1))
+    scale = {name: math.hypot(before[name], behind[name]) / math.sqrt(2) for name in fine}
+    shares = []
+    for kind, loads in itertools.product(KINDS, (LOADS[:3], LOADS[3:])):
+        names = [name for load in loads for variable in kind if (name := f"{load}_{variable}") in fine]
+        size = math.hypot(*(scale[name] for name in names))
+        shares += [math.hypot(*(error[name] for name in names)) / size] if size > 0 else []
+    return {name: FACTOR * math.hypot(error[name], scale[name] * statistics.median(shares)) for name in fine}
 
 
 class CoarserMeshes(unittest.TestCase):
@@ -45,12 +80,15 @@ class CoarserMeshes(unittest.TestCase):
         fine, coarse = self.values("fine"), self.values("coarse")
         self.assertEqual(self.values("both"), fine)
         self.assertEqual(self.values("both/mesh_2"), coarse)
+        facts = json.loads((self.folder / "both" / "result.json").read_text())["configuration"]
+        expected = half_widths(fine, coarse, facts["body_length"])
         for name, entry in self.found("both").items():
             step = (fine[name] - coarse[name]) / (RATIO**FORMAL_ORDER - 1)
             scale = max(abs(fine[name]), 1)
-            self.assertAlmostEqual(entry["parts"]["mesh"], SAFETY * abs(step), delta=1e-12 * scale)
+            self.assertAlmostEqual(entry["parts"]["mesh"], expected[name], delta=1e-9 * scale)
             self.assertAlmostEqual(entry["mesh_convergence"]["extrapolated"], fine[name] + step, delta=1e-12 * scale)
             self.assertIsNone(entry["mesh_convergence"]["observed_order"])
+            self.assertEqual(set(entry["mesh_convergence"]), {"extrapolated", "observed_order"})
             self.assertAlmostEqual(entry["uncertainty"], sum(entry["parts"].values()), delta=1e-15 * scale)
         self.assertGreater(self.found("both")["CN_alphadot"]["parts"]["mesh"], 1e-3)
 
@@ -73,6 +111,9 @@ class CoarserMeshes(unittest.TestCase):
                 else:
                     self.assertGreater(changes, expected)
         self.assertGreater(len(orders), 3)
+        self.on_meshes("two", '["box4.msh"]')
+        for name, entry in self.found("three").items():
+            self.assertLessEqual(entry["uncertainty"], self.found("two")[name]["uncertainty"], name)
 
     def test_stopped_on_a_coarser_mesh_it_goes_on(self) -> None:
         (self.folder / "part").mkdir()
