@@ -8,7 +8,7 @@ on the first, and the second shows what they are worth. The sharp delta wing is 
 (0.4 % apart by the trend in cases/delta_wing).
 
 Writes calibration.csv, calibration.txt and calibration.png into --out. The text also tells which factor would cover 95 % of the first
-set, for the program's way from differences of meshes to intervals and for others. Ten minutes of processor; needs Debian's
+set, for the program's way from differences of meshes to intervals and for others. Three minutes of processor; needs Debian's
 python3-numpy, python3-matplotlib and gmsh (hence /usr/bin/python3).
 """
 
@@ -114,10 +114,10 @@ def conditions() -> list[Condition]:
             ("wing", (1.3, 1.8, 2.5)): ((45, 1.6), (45, 2.5)),
         },
         "validation": {
-            ("cone", (0.055, 0.08, 0.11)): ((10, 1.6), (7, 2.5), (12, 3.5), (15, 2), (20, 5)),
-            ("wedge", (0.04, 0.06, 0.12)): ((5, 2.5), (5, 4)),
-            ("diamond", (0.04, 0.06, 0.12)): ((3, 2), (3, 2.5), (3, 3)),
-            ("wing", (1.4, 2.0, 2.8)): ((45, 1.8), (45, 2), (45, 3)),
+            ("cone", (0.055, 0.08, 0.11)): ((10, 1.7), (7, 2.5), (12, 3.5), (15, 2.2), (20, 5)),
+            ("wedge", (0.04, 0.06, 0.12)): ((5, 2.2), (5, 3.6)),
+            ("diamond", (0.04, 0.06, 0.12)): ((3, 2.2), (3, 2.7), (3, 3.6)),
+            ("wing", (1.4, 2.0, 2.8)): ((45, 1.8), (45, 2.2), (45, 2.8)),
         },
     }
     return [

@@ -144,6 +144,8 @@ RunView view_run(const std::string& folder) {
     out.message = text_of(result, "message");
     out.loads = loads_text(result.value("forces", Json::object()));
     out.derivatives = derivatives_text(result.value("derivatives", Json::object()));
+    if (!out.derivatives.empty())
+      out.derivatives += fmt::format("  (+-: {})", text_of(result, "uncertainty"));
   } else if (is_run_folder(folder)) {
     out.state = "running";  // its first lines are still to come
     out.silence = seconds_since_written(folder + "/steady.csv");

@@ -91,6 +91,7 @@ class Watch(unittest.TestCase):
         derivatives = json.loads((self.folder / "live" / "result.json").read_text())["derivatives"]
         shown = re.search(r"Cm_alphadot (\S+) \+-", last)[1]
         self.assertEqual(shown, f"{derivatives['Cm_alphadot']['value']:+.4g}")
+        self.assertIn("(+-: solver only; mesh not assessed)", last)
         self.assertFalse((self.folder / "live" / "progress.json").exists())
 
     def test_estimate_on_the_way_tends_to_the_result(self) -> None:
@@ -126,7 +127,7 @@ class Watch(unittest.TestCase):
             self.assertLess(time.monotonic(), end)
             time.sleep(0.05)
         page = self.watch("sweep", "--once")
-        self.assertRegex(page, r"a_linear +converged\n +CA .* Cm_alphadot")
+        self.assertRegex(page, r"a_linear +converged\n +CA .* Cm_alphadot .*\(\+-: solver only; mesh not assessed\)\n")
         self.assertRegex(page, r"b_live +running, ")
         self.assertIn("2 runs, 1 at work", page)
 
