@@ -72,7 +72,8 @@ RestartPoint CheckpointFolder::newest(std::vector<std::string>& rejected) {
       numbers_.pop_back();
     }
   }
-  problems.push_back({folder_, 0, "no checkpoint in the folder is whole", "run without --restart"});
+  problems.push_back({folder_, 0, "no checkpoint in the folder can be read",
+                      "run without --restart in another folder: here it would replace them"});
   throw InputError(std::move(problems));
 }
 

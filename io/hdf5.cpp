@@ -297,12 +297,14 @@ File File::create(const std::string& path) {
 
 File File::open(const std::string& path) {
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
-  std::error_code error;
-  if (!std::filesystem::exists(path, error)) throw InputError(path, 0, std::strerror(ENOENT));
-  Handle file = owned(H5Fopen(path.c_str(), H5F_ACC_RDONLY, access_list().id()), H5Fclose, path,
-                      "not an HDF5 file, or an incomplete one");
+  auto error = std::make_unique<int>(0);
+  const Handle access = access_list();
+  use_deferring_driver(access.id(), *error);
+  const hid_t id = H5Fopen(path.c_str(), H5F_ACC_RDONLY, access.id());
+  if (*error != 0) throw InputError(path, 0, std::strerror(*error));
+  Handle file = owned(id, H5Fclose, path, "not an HDF5 file, or an incomplete one");
   Handle root = owned(H5Gopen2(file.id(), "/", H5P_DEFAULT), H5Gclose, path, "has no root group");
-  return {path, std::move(file), std::move(root), std::make_unique<int>(0)};
+  return {path, std::move(file), std::move(root), std::move(error)};
 }
 
 void File::close() {

@@ -1,6 +1,7 @@
 #include "io/hdf5_driver.hpp"
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -21,6 +22,7 @@ struct DriverInfo {
 struct DriverFile {
   H5FD_t known{};
   int fd = -1;
+  bool is_written = false;    ///< not only read
   haddr_t allocated_end = 0;  ///< of the addresses HDF5 has handed out
   haddr_t written_end = 0;    ///< of what HDF5 believes is on disk
   int* error = nullptr;
@@ -37,22 +39,27 @@ void note(const DriverFile& file) {
   if (*file.error == 0) *file.error = errno;
 }
 
-H5FD_t* open_file(const char* name, unsigned, hid_t access_list, haddr_t) {
+H5FD_t* open_file(const char* name, unsigned flags, hid_t access_list, haddr_t) {
   const auto* info = static_cast<const DriverInfo*>(H5Pget_driver_info(access_list));
-  const int fd = open(name, O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-  if (fd < 0) {
+  const bool is_written = (flags & H5F_ACC_RDWR) != 0;
+  const int fd = open(name, O_CLOEXEC | (is_written ? O_RDWR | O_CREAT | O_TRUNC : O_RDONLY), 0666);
+  struct stat found {};
+  if (fd < 0 || fstat(fd, &found) != 0) {
     *info->error = errno;
+    if (fd >= 0) close(fd);
     return nullptr;
   }
   auto* file = new DriverFile;
   file->fd = fd;
+  file->is_written = is_written;
+  file->written_end = static_cast<haddr_t>(found.st_size);
   file->error = info->error;
   return &file->known;
 }
 
 herr_t close_file(H5FD_t* known) {
   auto* file = &of(known);
-  if (close(file->fd) != 0) note(*file);
+  if (close(file->fd) != 0 && file->is_written) note(*file);
   delete file;
   return 0;
 }
@@ -92,13 +99,14 @@ herr_t write_bytes(H5FD_t* known, H5FD_mem_t, hid_t, haddr_t address, size_t siz
   return 0;
 }
 
-/// Bytes that never reached the disk read as zeros.
+/// Bytes that never reached the disk, or lie behind the end of the file, read as zeros.
 herr_t read_bytes(H5FD_t* known, H5FD_mem_t, hid_t, haddr_t address, size_t size, void* buffer) {
   auto& file = of(known);
   char* bytes = static_cast<char*>(buffer);
   while (size > 0) {
     const auto count = pread(file.fd, bytes, size, static_cast<off_t>(address));
     if (count < 0 && errno == EINTR) continue;
+    if (count < 0 && !file.is_written) return -1;
     if (count < 0) note(file);
     if (count <= 0) break;
     bytes += count;
@@ -111,7 +119,7 @@ herr_t read_bytes(H5FD_t* known, H5FD_mem_t, hid_t, haddr_t address, size_t size
 
 herr_t truncate_file(H5FD_t* known, hid_t, hbool_t) {
   auto& file = of(known);
-  if (file.written_end == file.allocated_end) return 0;
+  if (!file.is_written || file.written_end == file.allocated_end) return 0;
   if (*file.error == 0 && ftruncate(file.fd, static_cast<off_t>(file.allocated_end)) != 0) note(file);
   file.written_end = file.allocated_end;
   return 0;

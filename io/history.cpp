@@ -206,6 +206,13 @@ std::string History::csv_row(std::size_t step) const {
   return text + '\n';
 }
 
+bool is_reserved_component(const std::string& name) {
+  constexpr std::string_view names[] = {
+      "step", "time", "t_star",           "alpha", "beta",  "phi",          "theta",      "psi", "p",
+      "q",    "r",    "inner_iterations", "total", "error", "inner_orders", "inner_left", ".",   ".."};
+  return std::ranges::find(names, name) != std::end(names);
+}
+
 void write_history(const std::string& folder, const History& history) {
   const std::filesystem::path in(folder);
   replace_file(in / "history.h5", [&](const std::string& temporary) {

@@ -76,6 +76,9 @@ class History {
   std::vector<std::vector<Real>> columns_;  // [names][steps]
 };
 
+/// Whether a component of that name would share columns with others of a run's history.
+bool is_reserved_component(const std::string& name);
+
 /// Writes history.h5 and history.csv into `folder`, each through a temporary file. For one rank; throws
 /// InputError.
 void write_history(const std::string& folder, const History& history);

@@ -52,7 +52,7 @@ DistributedGraph graph_of(const Share& share) {
 /// Of items that go to the root only.
 std::vector<int> all_to_root(std::size_t items, const Communicator& comm) {
   std::vector<int> counts(static_cast<std::size_t>(comm.size()), 0);
-  counts[0] = static_cast<int>(items);
+  counts[0] = item_count(items);
   return counts;
 }
 

@@ -3,13 +3,17 @@
 
 #include <mpi.h>
 
+#include <algorithm>
 #include <cstddef>
+#include <limits>
 #include <numeric>
 #include <span>
+#include <string>
 #include <type_traits>
 #include <vector>
 
 #include "core/communicator.hpp"
+#include "core/error.hpp"
 #include "core/types.hpp"
 
 namespace alphadot {
@@ -30,25 +34,42 @@ struct Delivery {
   }
 };
 
+/// A number of items as MPI counts them; too many for it stand as the largest, which is refused.
+inline int item_count(std::size_t items) {
+  return static_cast<int>(std::min<std::size_t>(items, std::numeric_limits<int>::max()));
+}
+
+/// Throws InputError on every rank when the counts of one make more items than MPI counts, nearly 2^31.
+/// Collective.
+inline void check_deliverable(const std::vector<int>& counts, const Communicator& comm) {
+  comm.on_all([&] {
+    const auto items = std::accumulate(counts.begin(), counts.end(), GlobalIndex{0});
+    if (items >= std::numeric_limits<int>::max())
+      throw InputError("", 0,
+                       "rank " + std::to_string(comm.rank()) + " has more items to exchange (" +
+                           std::to_string(items) + ") than MPI counts",
+                       "use more ranks");
+  });
+}
+
 /// Sends the first counts[0] of `items` to rank 0, the next counts[1] to rank 1, ... One all-to-all of the
-/// counts and one of the items; at most 2^31 items each way. Collective.
+/// counts and one of the items; at most 2^31 items each way (InputError). Collective.
 template <class T>
 Delivery<T> deliver(std::span<const T> items, const std::vector<int>& counts, const Communicator& comm) {
   static_assert(std::is_trivially_copyable_v<T>);
   const auto ranks = static_cast<std::size_t>(comm.size());
   Delivery<T> out;
   out.counts.resize(ranks);
+  check_deliverable(counts, comm);
   MPI_Alltoall(counts.data(), 1, MPI_INT, out.counts.data(), 1, MPI_INT, comm.handle());
+  check_deliverable(out.counts, comm);
   std::vector<int> sent_begin(ranks), begin(ranks);
   std::exclusive_scan(counts.begin(), counts.end(), sent_begin.begin(), 0);
   std::exclusive_scan(out.counts.begin(), out.counts.end(), begin.begin(), 0);
   out.items.resize(static_cast<std::size_t>(begin.back()) + static_cast<std::size_t>(out.counts.back()));
-  MPI_Datatype item;
-  MPI_Type_contiguous(sizeof(T), MPI_BYTE, &item);
-  MPI_Type_commit(&item);
-  MPI_Alltoallv(items.data(), counts.data(), sent_begin.data(), item, out.items.data(), out.counts.data(),
-                begin.data(), item, comm.handle());
-  MPI_Type_free(&item);
+  const ByteItem item(sizeof(T));
+  MPI_Alltoallv(items.data(), counts.data(), sent_begin.data(), item.type(), out.items.data(),
+                out.counts.data(), begin.data(), item.type(), comm.handle());
   return out;
 }
 
@@ -75,6 +96,7 @@ Addressed address(std::size_t items, const RankOf& rank_of, const Communicator& 
 /// Sends each of `items` to the rank that `rank_of(item)` names. Collective.
 template <class T, class RankOf>
 Delivery<T> deliver_to(std::span<const T> items, const RankOf& rank_of, const Communicator& comm) {
+  check_deliverable({item_count(items.size())}, comm);
   const auto addressed = address(
       items.size(), [&](std::size_t i) { return rank_of(items[i]); }, comm);
   std::vector<T> sent;

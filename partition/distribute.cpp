@@ -6,6 +6,7 @@
 #include "core/error.hpp"
 #include "partition/build_subdomain.hpp"
 #include "partition/decompose.hpp"
+#include "partition/face_matching.hpp"
 #include "partition/share.hpp"
 #include "partition/subdomain.hpp"
 
@@ -46,6 +47,14 @@ Subdomain distribute(const Mesh& mesh, const std::vector<int>& owner, const Comm
 }
 
 Subdomain distribute(MeshPart part, const Communicator& comm, Real scale) {
+  comm.on_all([&] {
+    if (static_cast<GlobalIndex>(std::max(part.cells.size(), part.points.size())) > max_cells_for_faces)
+      throw InputError(part.file, 0,
+                       "rank " + std::to_string(comm.rank()) + " would hold " +
+                           std::to_string(part.cells.size()) + " cells, of at most " +
+                           std::to_string(max_cells_for_faces),
+                       "use more ranks");
+  });
   Share share = gather_share(std::move(part), comm);
   Subdomain domain;
   comm.on_all([&] { domain = build_subdomain(std::move(share), scale); });

@@ -11,20 +11,20 @@ constexpr int tag = 2;
 HaloExchangeBytes::HaloExchangeBytes(const Subdomain& domain, const Communicator& comm, HaloWidth width,
                                      std::byte* values, std::size_t stride)
     : values_(values), stride_(stride) {
+  const ByteItem value(stride);
   for (const auto& neighbour : domain.neighbours) {
     const bool points = width == HaloWidth::points;
     const Index ghosts = points ? neighbour.ghost_count : neighbour.ghost_face_count;
     if (ghosts > 0)
-      MPI_Recv_init(values + static_cast<std::size_t>(neighbour.ghost_begin) * stride,
-                    static_cast<int>(static_cast<std::size_t>(ghosts) * stride), MPI_BYTE, neighbour.rank,
-                    tag, comm.handle(), &requests_.emplace_back());
+      MPI_Recv_init(values + static_cast<std::size_t>(neighbour.ghost_begin) * stride, ghosts, value.type(),
+                    neighbour.rank, tag, comm.handle(), &requests_.emplace_back());
     const std::span<const Index> cells =
         points ? std::span(neighbour.send)
                : std::span(neighbour.send).first(static_cast<std::size_t>(neighbour.send_face_count));
     if (!cells.empty()) {
       send_cells_.push_back(cells);
       auto& buffer = send_buffers_.emplace_back(cells.size() * stride);
-      MPI_Send_init(buffer.data(), static_cast<int>(buffer.size()), MPI_BYTE, neighbour.rank, tag,
+      MPI_Send_init(buffer.data(), static_cast<int>(cells.size()), value.type(), neighbour.rank, tag,
                     comm.handle(), &requests_.emplace_back());
     }
   }

@@ -66,7 +66,7 @@ std::vector<Link> links_of(const Subdomain& domain, const Pieces& pieces, const 
 template <class T>
 Delivery<T> to_root(std::span<const T> items, const Communicator& comm) {
   std::vector<int> counts(static_cast<std::size_t>(comm.size()), 0);
-  counts[0] = static_cast<int>(items.size());
+  counts[0] = item_count(items.size());
   return deliver<T>(items, counts, comm);
 }
 

@@ -9,20 +9,20 @@ constexpr int tag = 3;
 ReverseHaloExchangeBytes::ReverseHaloExchangeBytes(const Subdomain& domain, const Communicator& comm,
                                                    HaloWidth width, const std::byte* values,
                                                    std::size_t stride) {
+  const ByteItem value(stride);
   for (const auto& neighbour : domain.neighbours) {
     const bool points = width == HaloWidth::points;
     const std::span all(neighbour.send);
     const auto cells = points ? all : all.first(static_cast<std::size_t>(neighbour.send_face_count));
     if (!cells.empty()) {
       auto& buffer = parts_.emplace_back(Part{cells, std::vector<std::byte>(cells.size() * stride)}).buffer;
-      MPI_Recv_init(buffer.data(), static_cast<int>(buffer.size()), MPI_BYTE, neighbour.rank, tag,
+      MPI_Recv_init(buffer.data(), static_cast<int>(cells.size()), value.type(), neighbour.rank, tag,
                     comm.handle(), &requests_.emplace_back());
     }
     if (const Index ghosts = points ? neighbour.ghost_count : neighbour.ghost_face_count; ghosts > 0) {
       const auto bytes = static_cast<std::size_t>(ghosts) * stride;
-      MPI_Send_init(values + static_cast<std::size_t>(neighbour.ghost_begin) * stride,
-                    static_cast<int>(bytes), MPI_BYTE, neighbour.rank, tag, comm.handle(),
-                    &requests_.emplace_back());
+      MPI_Send_init(values + static_cast<std::size_t>(neighbour.ghost_begin) * stride, ghosts, value.type(),
+                    neighbour.rank, tag, comm.handle(), &requests_.emplace_back());
       sent_ += static_cast<GlobalIndex>(bytes);
       ++messages_;
     }

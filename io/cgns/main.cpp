@@ -6,6 +6,7 @@
 
 #include <csignal>
 #include <cstdio>
+#include <filesystem>
 
 #include "core/error.hpp"
 #include "io/cgns/cgns_reader.hpp"
@@ -17,6 +18,9 @@ using namespace alphadot;
 
 int convert(const std::string& from, const std::string& to) {
   try {
+    std::error_code error;
+    if (std::filesystem::equivalent(from, to, error))
+      throw InputError(to, 0, "the SU2 file would replace the CGNS file itself", "name another file");
     const Mesh mesh = read_cgns(from, [](const std::string& note) { fmt::print("{}\n", note); });
     write_su2(to, mesh);
     fmt::print("{}: {} tetrahedra, {} points\n", to, mesh.cells.size(), mesh.points.size());

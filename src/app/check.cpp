@@ -1,6 +1,7 @@
 // The verb "check": case and mesh without a run.
 #include <fmt/format.h>
 
+#include "app/coarser_meshes.hpp"
 #include "app/configuration_view.hpp"
 #include "app/setup.hpp"
 #include "app/verbs.hpp"
@@ -12,6 +13,7 @@ RunStatus check_verb(const CaseArguments& arguments, bool whole_case, const Comm
   const Case settings = load_case(arguments.case_file, arguments.overrides, comm);
   const Setup setup = load_setup(settings, comm);
   setup.domain.validate();
+  check_coarser_meshes(setup, comm);
   if (comm.is_root()) {
     for (const auto& warning : setup.warnings) fmt::print("warning: {}\n", warning);
     fmt::print("{}mesh: {} cells, {} points, hash {}; rank 0 of {} holds {} cells and {} ghosts\n{}",

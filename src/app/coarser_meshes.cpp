@@ -26,48 +26,76 @@ CaseArguments on_mesh(CaseArguments arguments, const FlowCase& finest, std::size
   return arguments;
 }
 
-/// The same errors with the key that they come from.
-InputError of_mesh(const std::string& file, const InputError& error) {
-  auto problems = error.problems();
-  for (auto& problem : problems)
+/// Adds the errors with the key that they come from.
+void add(const std::string& file, const InputError& error, std::vector<Problem>& problems) {
+  for (auto problem : error.problems()) {
     problem.what = fmt::format("derivatives.coarser_meshes, {}: {}",
                                std::filesystem::path(file).filename().string(), problem.what);
-  return InputError(std::move(problems));
+    problems.push_back(std::move(problem));
+  }
+}
+
+/// How fine a mesh is.
+struct Fineness {
+  GlobalIndex cells;
+  Real spacing;
+};
+
+Fineness fineness_of(const Setup& mesh, const Communicator& comm) {
+  return {mesh.mesh.cells, spacing_of(mesh, comm)};
+}
+
+void check_is_coarser(const Setup& mesh, const Fineness& found, const Fineness& before) {
+  if (found.spacing < least_refinement_ratio * before.spacing)
+    throw InputError(
+        mesh.settings.file, 0,
+        fmt::format("{} cells are not coarser than the {} of the mesh before", found.cells, before.cells),
+        "list meshes that become coarser by 1.3 in each direction");
 }
 
 }  // namespace
 
 std::vector<std::unique_ptr<FlowCase>> coarser_cases(const CaseArguments& arguments, const FlowCase& finest) {
   std::vector<std::unique_ptr<FlowCase>> out;
+  std::vector<Problem> problems;
+  const auto& comm = finest.communicator();
+  auto finer = fineness_of(finest.setup(), comm);
   const auto& files = finest.settings().derivatives.coarser_meshes;
-  for (std::size_t i = 0; i < files.size(); ++i) {
-    const auto& finer = out.empty() ? finest : *out.back();
-    try {
-      auto coarser =
-          std::make_unique<FlowCase>(on_mesh(arguments, finest, i), "derivatives", finest.communicator());
-      if (spacing_of(*coarser) < least_refinement_ratio * spacing_of(finer))
-        throw InputError(finest.settings().file, 0,
-                         fmt::format("{} cells are not coarser than the {} of the mesh before",
-                                     coarser->setup().mesh.cells, finer.setup().mesh.cells),
-                         "list meshes that become coarser by 1.3 in each direction");
-      out.push_back(std::move(coarser));
+  for (std::size_t i = 0; i < files.size(); ++i) try {
+      out.push_back(std::make_unique<FlowCase>(on_mesh(arguments, finest, i), "derivatives", comm));
+      const auto found = fineness_of(out.back()->setup(), comm);
+      check_is_coarser(finest.setup(), found, std::exchange(finer, found));
     } catch (const InputError& error) {
-      throw of_mesh(files[i], error);
+      add(files[i], error, problems);
     }
-  }
+  if (!problems.empty()) throw InputError(std::move(problems));
   return out;
 }
 
-Real spacing_of(const FlowCase& flow) {
-  const Subdomain& domain = flow.setup().domain;
+void check_coarser_meshes(const Setup& finest, const Communicator& comm) {
+  std::vector<Problem> problems;
+  auto finer = fineness_of(finest, comm);
+  for (const auto& file : finest.settings.derivatives.coarser_meshes) try {
+      Case settings = finest.settings;
+      settings.mesh.file = file;
+      const auto found = fineness_of(load_setup(settings, comm), comm);
+      check_is_coarser(finest, found, std::exchange(finer, found));
+    } catch (const InputError& error) {
+      add(file, error, problems);
+    }
+  if (!problems.empty()) throw InputError(std::move(problems));
+}
+
+Real spacing_of(const Setup& setup, const Communicator& comm) {
+  const Subdomain& domain = setup.domain;
   const Real volume =
       std::accumulate(domain.volume.begin(), domain.volume.begin() + domain.owned_cells, Real{0});
-  return std::cbrt(flow.communicator().sum(volume) / static_cast<Real>(domain.global_cells));
+  return std::cbrt(comm.sum(volume) / static_cast<Real>(domain.global_cells));
 }
 
 DerivativeSetOf<MeshConvergence> add_mesh_part(EstimatedDerivatives& finest, const FlowCase& flow,
                                                std::span<const MeshDerivatives> coarser) {
-  std::vector<MeshDerivatives> meshes{{spacing_of(flow), finest.derivatives}};
+  std::vector<MeshDerivatives> meshes{{spacing_of(flow.setup(), flow.communicator()), finest.derivatives}};
   meshes.insert(meshes.end(), coarser.begin(), coarser.end());
   finest.add("mesh", mesh_uncertainty(meshes, flow.setup().configuration.body_length));
   return mesh_convergence(meshes);

@@ -12,12 +12,15 @@
 namespace alphadot {
 
 /// The cases of the key derivatives.coarser_meshes, in folders "mesh_2" and "mesh_3" below that of the
-/// finest, where a restart goes on as well. Collective. Throws InputError that names the key when a mesh
-/// cannot be read, has other patches or is not coarser than the one before.
+/// finest, where a restart goes on as well. Collective. Throws InputError with every mesh that cannot be
+/// read, has other patches or is not coarser than the one before; it names the key.
 std::vector<std::unique_ptr<FlowCase>> coarser_cases(const CaseArguments& arguments, const FlowCase& finest);
 
+/// Looks for the same mistakes without setting anything up to compute. Collective.
+void check_coarser_meshes(const Setup& finest, const Communicator& comm);
+
 /// Mean spacing of a case's mesh, in its unit: the cube root of the cells' mean volume. Collective.
-Real spacing_of(const FlowCase& flow);
+Real spacing_of(const Setup& setup, const Communicator& comm);
 
 /// Adds the part "mesh" to the uncertainties of the finest mesh.
 DerivativeSetOf<MeshConvergence> add_mesh_part(EstimatedDerivatives& finest, const FlowCase& flow,

@@ -100,7 +100,7 @@ NamedValues longitudinal_of(std::span<const TableRow> balance, const DerivativeS
 void print_limits(const NamedValues& longitudinal) {
   if (!spdlog::should_log(spdlog::level::info)) return;
   for (const auto& [name, value] : longitudinal)
-    if (name.starts_with("quasi_steady")) fmt::print("{} {:.5g}\n", name, value);
+    if (name.starts_with("quasi_steady")) print_out(fmt::format("{} {:.5g}\n", name, value));
 }
 
 /// What refinement says about the derivatives that a result has.
@@ -195,7 +195,7 @@ std::optional<std::vector<MeshDerivatives>> complete_coarser(FlowCase& finest,
     }
     if (result.status == RunStatus::unconverged)
       finest.fall_short(fmt::format("on {}: {}", level->setup().mesh.file, result.message));
-    out.push_back({spacing_of(*level), std::move(derivatives)});
+    out.push_back({spacing_of(level->setup(), level->communicator()), std::move(derivatives)});
   }
   return out;
 }

@@ -1,7 +1,7 @@
 // The verb "derive": derivatives from a history file.
 #include <fmt/format.h>
 
-#include <cmath>
+#include <optional>
 
 #include "analysis/table.hpp"
 #include "app/extraction.hpp"
@@ -9,16 +9,17 @@
 
 namespace alphadot {
 
-RunStatus derive_verb(const std::string& history_file, Real center_x, const Communicator& comm) {
+RunStatus derive_verb(const std::string& history_file, std::optional<Real> center_x,
+                      const Communicator& comm) {
   comm.on_root([&] {
     const History history = read_history(history_file);
     auto [estimated, method] = extract_derivatives(history);
     ReferenceSettings reference = history.info.reference;
-    if (std::isfinite(center_x)) {
+    if (center_x) {
       estimated.derivatives =
-          moment_transfer(estimated.derivatives, (center_x - reference.moment_center.x) / reference.length);
+          moment_transfer(estimated.derivatives, (*center_x - reference.moment_center.x) / reference.length);
       estimated.parts.clear();
-      reference.moment_center.x = center_x;
+      reference.moment_center.x = *center_x;
     }
     const auto rows = rows_of(estimated.derivatives, method, Axes::body, estimated.parts);
     fmt::print("{}", derivative_table(rows, {reference, history.info.status, uncertainty_scope(rows),

@@ -14,6 +14,7 @@
 #include "app/configuration_view.hpp"
 #include "app/motion_setup.hpp"
 #include "app/pictures.hpp"
+#include "app/stop.hpp"
 #include "app/watchdog.hpp"
 #include "core/error.hpp"
 #include "core/log.hpp"
@@ -202,6 +203,7 @@ CheckpointHead FlowCase::steady_head(std::string phase) const {
 }
 
 RunStatus FlowCase::march() {
+  stops_safely();
   const auto* restart = checkpoints_.restart();
   if (restart && restart->phase == "motion") {
     restore_steady(*restart);
@@ -432,10 +434,9 @@ void FlowCase::print(const Result& result, std::span<const TableRow> derivatives
   if (!spdlog::should_log(spdlog::level::info)) return;
   const auto loads = coefficients(steady_report_.total, settings());
   if (!derivatives.empty())
-    fmt::print("{}\n", derivative_table(derivatives, table_head(result.status, derivatives)));
-  fmt::print("Steady: CA {:.6f}  CN {:+.6f}  Cm {:+.6f} about x = {:g}\n", loads.CA, loads.CN, loads.Cm,
-             settings().reference.moment_center.x);
-  std::fflush(stdout);  // before the log's last words
+    print_out(derivative_table(derivatives, table_head(result.status, derivatives)) + "\n");
+  print_out(fmt::format("Steady: CA {:.6f}  CN {:+.6f}  Cm {:+.6f} about x = {:g}\n", loads.CA, loads.CN,
+                        loads.Cm, settings().reference.moment_center.x));
   const auto& p = result.performance;
   spdlog::info(
       "{} wall, {:.1f} s of processor, {} iterations, {:.3f} us of core time per cell and iteration, "
@@ -446,7 +447,6 @@ void FlowCase::print(const Result& result, std::span<const TableRow> derivatives
 }
 
 void FlowCase::print_end(const Result& result) const {
-  std::fflush(stdout);
   if (result.status == RunStatus::unconverged)
     spdlog::warn("not converged: {}; written to {}", result.message, folder_);
   else if (keeps_result_of_before(result.status))

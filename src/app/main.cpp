@@ -3,12 +3,13 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <functional>
-#include <limits>
 #include <map>
+#include <new>
+#include <optional>
+#include <string>
 
 #include "app/adjoint.hpp"
 #include "app/companion.hpp"
@@ -22,20 +23,39 @@ namespace {
 
 using namespace alphadot;
 
+/// On standard error, which may have nobody at its other end.
+void complain(const std::string& of_what, const std::string& text) {
+  std::fputs(fmt::format("alphadot: {}: {}\n", of_what, text).c_str(), stderr);
+}
+
 /// Runs a verb; its errors are printed once, and every rank gets the exit code.
 int guarded(const Communicator& comm, const std::function<RunStatus()>& verb) {
   try {
     return exit_code(verb());
   } catch (const InputError& error) {
     if (comm.is_root())
-      for (const auto& problem : error.problems())
-        fmt::print(stderr, "alphadot: error: {}\n", problem.text());
+      for (const auto& problem : error.problems()) complain("error", problem.text());
+  } catch (const std::bad_alloc&) {
+    complain("error", out_of_memory(comm.rank()).text());
+    if (comm.size() > 1) MPI_Abort(comm.handle(), exit_code(RunStatus::error));
+  } catch (const FailedElsewhere&) {
+    // That rank says why, and ends this one.
   } catch (const std::exception& error) {
     // Not foreseen, so other ranks may be waiting for this one: end them too.
-    fmt::print(stderr, "alphadot: internal error on rank {}: {}\n", comm.rank(), error.what());
+    complain(fmt::format("internal error on rank {}", comm.rank()), error.what());
     if (comm.size() > 1) MPI_Abort(comm.handle(), exit_code(RunStatus::error));
   }
   return exit_code(RunStatus::error);
+}
+
+/// Checks an option; unlike CLI::Range it does not let what is not a number pass.
+CLI::Validator number_from(Real least, Real most) {
+  return {[least, most](const std::string& text) {
+            Real value = 0;
+            const bool is_good = CLI::detail::lexical_cast(text, value) && value >= least && value <= most;
+            return is_good ? std::string() : fmt::format("{} is no number from {} to {}", text, least, most);
+          },
+          fmt::format("NUMBER from {} to {}", least, most)};
 }
 
 void add_case_arguments(CLI::App& verb, CaseArguments& arguments) {
@@ -117,10 +137,11 @@ int main(int argc, char** argv) {
           {"metis", Partitioner::metis}, {"ptscotch", Partitioner::ptscotch}}));
 
   std::string file;
-  Real center = std::numeric_limits<Real>::quiet_NaN();
+  std::optional<Real> center;
   auto& derive = *app.add_subcommand("derive", "Derivatives from the history of a motion");
   derive.add_option("history", file, "history.h5 of a run")->required();
-  derive.add_option("--center", center, "x of the moment centre, in mesh units (default: that of the run)");
+  derive.add_option("--center", center, "x of the moment centre, in mesh units (default: that of the run)")
+      ->check(number_from(-1e12, 1e12));
 
   auto& info = *app.add_subcommand("info", "What a mesh, history, checkpoint or result file holds");
   info.add_option("file", file, "The file")->required();
@@ -131,7 +152,7 @@ int main(int argc, char** argv) {
   watch.add_option("folder", file, "Folder of the run, or of the sweep")->required();
   watch.add_flag("--once", once, "Show the state once and end");
   watch.add_option("--interval", interval, "Seconds between two looks (default: 2)")
-      ->check(CLI::Range(0.1, 3600.0));
+      ->check(number_from(0.1, 3600));
 
   auto& keys = *app.add_subcommand("keys", "Every key of the case file with its default and meaning");
 

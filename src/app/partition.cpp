@@ -43,11 +43,23 @@ std::string output_of(const PartitionArguments& arguments) {
   return std::filesystem::path(arguments.mesh).replace_extension(".h5");
 }
 
+/// Also one that is damaged, which is to be made anew.
+bool is_or_was_prepared(const std::string& file) {
+  try {
+    return is_partitioned_mesh(file);
+  } catch (const InputError&) {
+    return true;
+  }
+}
+
 void check_arguments(const PartitionArguments& arguments) {
   const auto output = output_of(arguments);
   std::error_code error;
   if (std::filesystem::equivalent(arguments.mesh, output, error))
     throw InputError(output, 0, "the prepared mesh would replace the mesh itself",
+                     "name another file with --output");
+  if (std::filesystem::exists(output, error) && !is_or_was_prepared(output))
+    throw InputError(output, 0, "this file is no prepared mesh, and would be replaced by one",
                      "name another file with --output");
 }
 

@@ -65,9 +65,7 @@ Progress::Progress(const Case& settings, const Origin& origin, std::string folde
     : settings_(settings),
       steady_head_(fmt::format("# Flow: {}\n{}\n", origin.text(), steady_columns)),
       folder_(std::move(folder)),
-      is_root_(is_root) {
-  if (is_root_) write_json("setting up", {}, not_measured, {});
-}
+      is_root_(is_root) {}
 
 Progress::~Progress() {
   std::error_code ignored;

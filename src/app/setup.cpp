@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <utility>
 
 #include "core/error.hpp"
@@ -11,6 +12,7 @@
 #include "core/memory.hpp"
 #include "io/case_file.hpp"
 #include "io/files.hpp"
+#include "io/history.hpp"
 #include "io/mesh_reader.hpp"
 #include "io/partitioned_mesh.hpp"
 #include "io/seal.hpp"
@@ -33,6 +35,13 @@ void add_patch_problems(const Case& settings, const std::vector<std::string>& pa
                           fmt::format("add {} = \"wall\", \"symmetry\", \"farfield\", ... to [boundary]",
                                       toml_string(name))});
   for (const auto& [name, kind] : settings.boundary) {
+    if (kind == BoundaryKind::wall && is_reserved_component(name))
+      problems.push_back(
+          {settings.file, 0,
+           fmt::format("a wall cannot be called \"{}\": the history of loads has other columns "
+                       "of that name",
+                       name),
+           "rename the patch in the mesh"});
     if (std::ranges::find(patch_names, name) != patch_names.end()) continue;
     const auto line = settings.boundary_lines.find(name);
     problems.push_back({settings.file, line == settings.boundary_lines.end() ? 0 : line->second,
@@ -69,29 +78,44 @@ struct CaseFiles {
   std::vector<Problem> problems;
 };
 
-CaseFiles read_files(const Case& settings) {
-  CaseFiles out;
+/// Reads a mesh, or what stands before a prepared one, and looks whether its patches are those of the case.
+void read_mesh_of(const Case& settings, const std::string& file, CaseFiles& out) {
   std::vector<std::string> patches;
+  out.mesh_is_prepared = is_hdf5(file);
+  if (out.mesh_is_prepared) {
+    auto header = read_partitioned_mesh_header(file);
+    patches = std::move(header.patch_names);
+    out.mesh_hash = std::move(header.hash);
+  } else {
+    out.mesh = read_mesh(file);
+    for (const auto& patch : out.mesh.patches) patches.push_back(patch.name);
+  }
+  if (!settings.boundary.empty()) add_patch_problems(settings, patches, out.problems);
+  if (!out.mesh_is_prepared) out.mesh.validate();
+}
+
+/// Where something is wrong already, the coarser meshes are looked at too, so that nothing comes to light
+/// later.
+CaseFiles read_files(const Case& settings, bool is_faulty) {
+  CaseFiles out;
   collect(out.problems, [&] {
-    const std::string& file = settings.mesh.file;
-    if (file.empty()) return;
-    out.mesh_is_prepared = is_hdf5(file);
-    if (out.mesh_is_prepared) {
-      auto header = read_partitioned_mesh_header(file);
-      patches = std::move(header.patch_names);
-      out.mesh_hash = std::move(header.hash);
-    } else {
-      out.mesh = read_mesh(file);
-      for (const auto& patch : out.mesh.patches) patches.push_back(patch.name);
-    }
-    if (!settings.boundary.empty()) add_patch_problems(settings, patches, out.problems);
-    if (!out.mesh_is_prepared) out.mesh.validate();
+    if (!settings.mesh.file.empty()) read_mesh_of(settings, settings.mesh.file, out);
   });
   if (settings.motion.kind == MotionKind::table && !settings.motion.table_file.empty())
     collect(out.problems, [&] {
       out.table_text = read_text_file(settings.motion.table_file, "table of a motion", largest_table);
       table_of(settings, out.table_text);
     });
+  if (is_faulty || !out.problems.empty())
+    for (const auto& file : settings.derivatives.coarser_meshes) {
+      CaseFiles coarser;
+      collect(coarser.problems, [&] { read_mesh_of(settings, file, coarser); });
+      for (auto& problem : coarser.problems) {
+        problem.what = fmt::format("derivatives.coarser_meshes, {}: {}",
+                                   std::filesystem::path(file).filename().string(), problem.what);
+        out.problems.push_back(std::move(problem));
+      }
+    }
   return out;
 }
 
@@ -106,7 +130,7 @@ Case load_case(const std::string& path, const std::vector<std::string>& override
     draft = draft_case(text, path, overrides);
     if (draft.problems.empty()) return;
     if (comm.is_root() && draft.is_readable) {
-      const auto more = read_files(draft.settings).problems;
+      const auto more = read_files(draft.settings, true).problems;
       draft.problems.insert(draft.problems.end(), more.begin(), more.end());
     }
     throw InputError(std::move(draft.problems));
@@ -121,7 +145,7 @@ Setup load_setup(const Case& settings, const Communicator& comm) {
   const Real before = resident_bytes();
   CaseFiles files;
   comm.on_root([&] {
-    files = read_files(settings);
+    files = read_files(settings, false);
     if (!files.problems.empty()) throw InputError(std::move(files.problems));
     for (const auto& note : files.mesh.notes) spdlog::info("{}: {}", settings.mesh.file, note);
     if (!files.mesh_is_prepared) files.mesh_hash = files.mesh.hash();

@@ -44,8 +44,9 @@ RunStatus check_verb(const CaseArguments& arguments, bool whole_case, const Comm
 /// Prepares a mesh for reading by many ranks at once.
 RunStatus partition_verb(const PartitionArguments& arguments, const Communicator& comm);
 
-/// Derivatives from a history file, about any centre along the axis (NaN: that of the history).
-RunStatus derive_verb(const std::string& history_file, Real center_x, const Communicator& comm);
+/// Derivatives from a history file, about any centre along the axis (none: that of the history).
+RunStatus derive_verb(const std::string& history_file, std::optional<Real> center_x,
+                      const Communicator& comm);
 
 /// Prints what a file is and holds: mesh, history, checkpoint or result.
 RunStatus info_verb(const std::string& file, const Communicator& comm);

@@ -3,17 +3,26 @@
 #include <algorithm>
 #include <cstddef>
 #include <exception>
+#include <new>
+#include <system_error>
+#include <utility>
 
 #include "core/error.hpp"
 
 namespace alphadot {
 
 MpiSession::MpiSession(int& argc, char**& argv) {
-  MPI_Init(&argc, &argv);
+  int provided = MPI_THREAD_SINGLE;
+  MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &provided);  // other threads never call MPI
 }
 
 MpiSession::~MpiSession() {
   if (std::uncaught_exceptions() == 0) MPI_Finalize();
+}
+
+ByteItem::ByteItem(std::size_t bytes) {
+  MPI_Type_contiguous(static_cast<int>(bytes), MPI_BYTE, &type_);
+  MPI_Type_commit(&type_);
 }
 
 Communicator::Communicator(MPI_Comm comm) : comm_(comm) {
@@ -28,7 +37,10 @@ void Communicator::barrier() const {
 namespace {
 template <class T>
 void reduce(MPI_Comm comm, std::span<T> values, MPI_Datatype type, MPI_Op op) {
-  MPI_Allreduce(MPI_IN_PLACE, values.data(), static_cast<int>(values.size()), type, op, comm);
+  constexpr std::size_t chunk = std::size_t{1} << 30;
+  for (std::size_t begin = 0; begin < values.size(); begin += chunk)
+    MPI_Allreduce(MPI_IN_PLACE, values.data() + begin,
+                  static_cast<int>(std::min(chunk, values.size() - begin)), type, op, comm);
 }
 }  // namespace
 
@@ -97,15 +109,25 @@ namespace {
   throw InputError(std::move(problems));
 }
 
-std::vector<Problem> problems_of(const std::function<void()>& work) {
+/// What became of the work of one rank.
+struct Failure {
+  std::vector<Problem> problems;
+  std::exception_ptr fault;  ///< of the program
+};
+
+Failure failure_of(const std::function<void()>& work, int rank) {
   try {
     work();
     return {};
   } catch (const InputError& error) {
-    if (error.problems().empty()) return {Problem{"", 0, "an error without a description", ""}};
-    return error.problems();
-  } catch (const std::exception& error) {
-    return {Problem{"", 0, error.what(), ""}};
+    if (error.problems().empty()) return {{Problem{"", 0, "an error without a description", ""}}, {}};
+    return {error.problems(), {}};
+  } catch (const std::system_error& error) {
+    return {{Problem{"", 0, error.what(), ""}}, {}};
+  } catch (const std::bad_alloc&) {
+    return {{out_of_memory(rank)}, {}};
+  } catch (...) {
+    return {{}, std::current_exception()};
   }
 }
 
@@ -118,9 +140,12 @@ void Communicator::on_root(const std::function<void()>& work) const {
 }
 
 void Communicator::on_all(const std::function<void()>& work) const {
-  auto problems = problems_of(work);
-  int failing_rank = problems.empty() ? size_ : rank_;
+  auto [problems, fault] = failure_of(work, rank_);
+  // The first rank with a fault, else the first with a problem.
+  int failing_rank = fault ? rank_ - size_ : problems.empty() ? size_ : rank_;
   MPI_Allreduce(MPI_IN_PLACE, &failing_rank, 1, MPI_INT, MPI_MIN, comm_);
+  if (fault) std::rethrow_exception(fault);
+  if (failing_rank < 0) throw FailedElsewhere("rank " + std::to_string(failing_rank + size_) + " has failed");
   if (failing_rank < size_) throw_everywhere(*this, std::move(problems), failing_rank);
 }
 

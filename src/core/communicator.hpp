@@ -3,6 +3,7 @@
 
 #include <mpi.h>
 
+#include <cstddef>
 #include <functional>
 #include <span>
 #include <string>
@@ -19,6 +20,21 @@ class MpiSession {
   ~MpiSession();
   MpiSession(const MpiSession&) = delete;
   MpiSession& operator=(const MpiSession&) = delete;
+};
+
+/// Items of `bytes` bytes each as MPI counts them, so that 2^31 of them fit into a message. The type is given
+/// up with the object; requests that were made with it keep it.
+class ByteItem {
+ public:
+  explicit ByteItem(std::size_t bytes);
+  ~ByteItem() { MPI_Type_free(&type_); }
+  ByteItem(const ByteItem&) = delete;
+  ByteItem& operator=(const ByteItem&) = delete;
+
+  MPI_Datatype type() const { return type_; }
+
+ private:
+  MPI_Datatype type_;
 };
 
 /// A group of ranks. Copies share the underlying communicator; the world communicator outlives them.
@@ -48,11 +64,13 @@ class Communicator {
   /// Bytes of `root` on every rank; `bytes` has the same size everywhere. Any size (split above 1 GiB).
   void broadcast(std::span<std::byte> bytes, int root = 0) const;
 
-  /// Runs `work` on the root alone. An InputError (or any std::exception) thrown there is thrown on every
-  /// rank, so that no rank waits for another one that has failed. Collective.
+  /// Runs `work` on the root alone. What is thrown there is thrown on every rank as on_all does, so that no
+  /// rank waits for another one that has failed. Collective.
   void on_root(const std::function<void()>& work) const;
-  /// Runs `work` on every rank; when it throws on any, every rank throws the first rank's error. Collective:
-  /// `work` itself must not communicate.
+  /// Runs `work` on every rank; when it throws on any, every rank throws the first rank's error. Errors of
+  /// the input and of the system, and memory that does not suffice, become InputErrors; any other exception
+  /// is a fault of the program, which goes on as it is where it was thrown and as FailedElsewhere on other
+  /// ranks. Collective: `work` itself must not communicate.
   void on_all(const std::function<void()>& work) const;
 
  private:

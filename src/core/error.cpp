@@ -15,6 +15,11 @@ std::string Problem::text() const {
   return out;
 }
 
+Problem out_of_memory(int rank) {
+  return {"", 0, fmt::format("the memory does not suffice on rank {}", rank),
+          "use more ranks on more machines, or a coarser mesh"};
+}
+
 namespace {
 std::string joined(const std::vector<Problem>& problems) {
   std::string out;

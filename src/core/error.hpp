@@ -31,6 +31,15 @@ class InputError : public std::runtime_error {
   std::vector<Problem> problems_;
 };
 
+/// Memory does not suffice, as an error that a user can mend.
+Problem out_of_memory(int rank);
+
+/// Thrown on the ranks that are well when a fault of the program ends another one.
+class FailedElsewhere : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
 /// The run cannot go on for a reason inside the flow: vacuum, NaN, residual growth that no CFL cut mends.
 class DivergedError : public std::runtime_error {
  public:

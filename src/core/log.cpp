@@ -2,6 +2,8 @@
 
 #include <spdlog/sinks/stdout_color_sinks.h>
 
+#include <cstdio>
+
 namespace alphadot {
 
 void set_up_log(bool is_root, bool quiet) {
@@ -10,6 +12,11 @@ void set_up_log(bool is_root, bool quiet) {
   logger->set_pattern("%v");
   logger->set_level(!is_root ? spdlog::level::off : quiet ? spdlog::level::warn : spdlog::level::info);
   spdlog::set_default_logger(logger);
+}
+
+void print_out(const std::string& text) {
+  std::fwrite(text.data(), 1, text.size(), stdout);
+  std::fflush(stdout);  // before the log's next words
 }
 
 }  // namespace alphadot

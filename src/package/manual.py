@@ -70,8 +70,11 @@ write a checkpoint and go on
 .B USR2
 write a checkpoint and end
 .TP
-.BR TERM ", " INT
-end as safely as the second that mpirun leaves allows
+.BR TERM ", " INT ", " HUP
+end as safely as the second that mpirun leaves allows; HUP not under
+.BR nohup (1)
+.PP
+Before the flow is computed there is nothing to save, and signals to end do so at once.
 .SH EXIT STATUS
 .nf
 0  converged, or completed: everything that was asked for was reached

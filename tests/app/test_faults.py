@@ -124,6 +124,61 @@ class Faults(unittest.TestCase):
         self.assertIn("case.toml:5", outcome.errors[0])
         self.assertIn("case.toml:11", outcome.errors[1])
 
+    def test_every_problem_of_case_and_files_at_once(self) -> None:
+        """Keys, patches of the mesh, the table of the motion and coarser meshes, which need no sound case to be looked at."""
+        case = CASE.replace("alpha = 1.0", "alpha = 1000.0").replace('wall = "wall"\n', 'fins = "wall"\n')
+        case += '[motion]\nkind = "table"\ntable_file = "motion.txt"\n[unsteady]\nduration = 9\nsteps = 0\n'
+        case += '[derivatives]\ncoarser_meshes = ["none.msh", "other.msh"]\n'
+        (self.folder / "motion.txt").write_text("t_star alpha\n0 1\n1 2\n")
+        (self.folder / "other.msh").write_text(gmsh_text(*box(1)))
+        write_case(self.folder, case)
+        outcome = run(self.folder, "check", "case.toml")
+        self.assertEqual(outcome.codes, [1] * RANKS)
+        for words in (
+            "case.toml:6: freestream.alpha must be a number from -180 to 180",
+            "needs unsteady.steps >= 1",
+            'case.toml: patch "wall" of the mesh has no boundary condition',
+            'case.toml:9: [boundary] names "fins", which the mesh does not have',
+            "motion.txt: the table ends at t_star = 1, before unsteady.duration",
+            "derivatives.coarser_meshes, none.msh: cannot read the file",
+            'derivatives.coarser_meshes, other.msh: patch "wall" of the mesh has no boundary condition',
+        ):
+            self.assertEqual(outcome.err.count(words), 1, words + "\n" + outcome.err)
+
+    def test_check_looks_at_coarser_meshes(self) -> None:
+        write_case(self.folder, CASE + '[derivatives]\ncoarser_meshes = ["none.msh", "box.msh"]\n')
+        outcome = run(self.folder, "check", "case.toml")
+        self.assertEqual(outcome.codes, [1] * RANKS)
+        self.assertIn("derivatives.coarser_meshes, none.msh: cannot read the file", outcome.err)
+        self.assertIn("derivatives.coarser_meshes, box.msh: 48 cells are not coarser than the 48", outcome.err)
+
+    def test_inputs_that_are_no_files_of_their_kind(self) -> None:
+        write_case(self.folder)
+        (self.folder / "large.toml").write_text("#" * 10_000_000)
+        (self.folder / "large.txt").write_text("#" * 17_000_000)
+        for case, says in ((".", "not a regular file"), ("/dev/zero", "not a regular file"), ("large.toml", "too large")):
+            outcome = run(self.folder, "check", case)
+            self.assertEqual((outcome.codes, len(outcome.errors)), ([1] * RANKS, 1), outcome.err)
+            self.assertIn(says, outcome.err)
+        for table, says in ((".", "not a regular file"), ("/dev/zero", "not a regular file"), ("large.txt", "too large"), ("x", "no such")):
+            words = ("motion.kind=table", f"motion.table_file={table}", "unsteady.duration=1", "unsteady.steps=4")
+            outcome = run(self.folder, "check", "case.toml", *(part for word in words for part in ("--set", word)))
+            self.assertEqual((outcome.codes, len(outcome.errors)), ([1] * RANKS, 1), outcome.err)
+            self.assertIn(says, outcome.err)
+
+    def test_names_of_walls_that_the_history_has(self) -> None:
+        for name in ("total", "error", "step", "t_star"):
+            with self.subTest(name=name):
+                mesh = gmsh_text(*box(2)).replace('"wall"', f'"{name}"')
+                self.refused(f'a wall cannot be called "{name}"', mesh=mesh, case=CASE.replace("wall =", f"{name} ="))
+
+    def test_numbers_of_the_command_line(self) -> None:
+        for arguments in (("derive", "history.h5", "--center", "nan"), ("derive", "h.h5", "--center", "inf"), ("watch", ".", "--interval", "nan")):
+            with self.subTest(arguments=arguments):
+                outcome = run(self.folder, *arguments)
+                self.assertEqual(outcome.codes, [2] * RANKS)
+                self.assertIn("no number from", outcome.out + outcome.err)
+
     def test_wrong_command_line(self) -> None:
         for arguments in ((), ("fly",), ("run",), ("run", "case.toml", "--fast")):
             with self.subTest(arguments=arguments):

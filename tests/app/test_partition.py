@@ -76,6 +76,9 @@ class Partition(unittest.TestCase):
         self.assert_refused(run(self.folder, "partition", "box.msh", "-n", "1000", ranks=2), "box.msh", "384 cells")
         same = run(self.folder, "partition", "box.msh", "-n", "2", "-o", "box.msh", ranks=2)
         self.assert_refused(same, "box.msh", "replace the mesh")
+        (self.folder / "other.h5").write_text("mine")
+        other = run(self.folder, "partition", "box.msh", "-n", "2", "-o", "other.h5", ranks=2)
+        self.assert_refused(other, "other.h5: this file is no prepared mesh")
         nowhere = run(self.folder, "partition", "box.msh", "-n", "2", "-o", "none/box.h5", ranks=2)
         self.assert_refused(nowhere, "none/box.h5")
         self.assertEqual(run(self.folder, "partition", "box.msh", "-n", "0").codes, [2])
@@ -92,6 +95,7 @@ class Partition(unittest.TestCase):
     def test_another_hdf5_file_is_no_mesh(self) -> None:
         self.prepare("box.msh", "-n", "1", "-o", "whole.h5")
         run(self.folder, "run", "case.toml", "--set", "mesh.file=whole.h5", "--out", "run", "--quiet")
+        self.assert_refused(run(self.folder, "partition", "box.msh", "-n", "2", "-o", "run/flow.vtkhdf"), "is no prepared mesh")
         picture = run(self.folder, "check", "case.toml", "--set", "mesh.file=run/flow.vtkhdf", ranks=2)
         self.assert_refused(picture, "flow.vtkhdf", "not a mesh prepared by alphadot partition")
 

@@ -2,6 +2,9 @@
 // error of one rank is thrown on all of them.
 #include <gtest/gtest.h>
 
+#include <new>
+#include <system_error>
+
 #include <algorithm>
 #include <cstddef>
 #include <new>
@@ -117,12 +120,34 @@ TEST_F(CommunicatorTest, PrefersTheFirstRanksError) {
   EXPECT_EQ(error->problems()[0].line, first);
 }
 
-TEST_F(CommunicatorTest, SpreadsOtherExceptionsToo) {
-  const auto runtime = thrown_by([&] { comm.on_root([] { throw std::runtime_error("no space left"); }); });
-  ASSERT_TRUE(runtime);
-  EXPECT_STREQ(runtime->what(), "no space left");
-  const auto memory = thrown_by([&] { comm.on_all([] { throw std::bad_alloc(); }); });
-  EXPECT_TRUE(memory);
+TEST_F(CommunicatorTest, SpreadsErrorsOfTheSystem) {
+  const auto system = thrown_by([&] {
+    comm.on_root([] { throw std::system_error(std::make_error_code(std::errc::no_space_on_device)); });
+  });
+  ASSERT_TRUE(system);
+  EXPECT_NE(std::string(system->what()).find("No space left"), std::string::npos);
+  const int last = comm.size() - 1;
+  const auto memory = thrown_by([&] {
+    comm.on_all([&] {
+      if (comm.rank() == last) throw std::bad_alloc();
+    });
+  });
+  ASSERT_TRUE(memory);
+  EXPECT_EQ(memory->problems()[0].what, "the memory does not suffice on rank " + std::to_string(last));
+  EXPECT_NE(memory->problems()[0].remedy.find("use more ranks"), std::string::npos);
+}
+
+// A fault of the program is no error that a user can mend; and it outweighs one.
+TEST_F(CommunicatorTest, LeavesFaultsOfTheProgramWhatTheyAre) {
+  const int last = comm.size() - 1;
+  const auto work = [&] {
+    if (comm.rank() == last) throw std::logic_error("a bug");
+    throw InputError("", 0, "a mistake");
+  };
+  if (comm.rank() == last)
+    EXPECT_THROW(comm.on_all(work), std::logic_error);
+  else
+    EXPECT_THROW(comm.on_all(work), FailedElsewhere);
 }
 
 // An error without a list of problems is still an error.

@@ -163,7 +163,7 @@ class Restart(CaseInFolder):
         self.run_ok(self.part)
         for file in checkpoints(self.part):
             file.write_bytes(b"")
-        self.refused("no checkpoint in the folder is whole", *(file.name for file in checkpoints(self.part)), arguments=[])
+        self.refused("no checkpoint in the folder can be read", "in another folder", *(file.name for file in checkpoints(self.part)), arguments=[])
 
 
 if __name__ == "__main__":

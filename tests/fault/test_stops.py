@@ -6,11 +6,12 @@ from __future__ import annotations
 import os
 import signal
 import shutil
+import subprocess
 import time
 import unittest
 from pathlib import Path
 
-from runs import STEPS, CaseInFolder, LiveRun, checkpoints, differences, make_case, result, run, settings
+from runs import SECONDS, STEPS, CaseInFolder, LiveRun, checkpoints, command, differences, make_case, result, run, settings
 
 LONG = settings(unsteady_cycles=10000)  # minutes, if nobody stops it
 
@@ -54,6 +55,50 @@ class Stops(CaseInFolder):
 
     def test_sigterm(self) -> None:
         self.stopped_by(signal.SIGTERM, 1)
+
+    def test_sighup(self) -> None:
+        self.stopped_by(signal.SIGHUP, 1)
+
+    def test_nohup(self) -> None:
+        """A run that was started to outlive its terminal does."""
+        before = signal.signal(signal.SIGHUP, signal.SIG_IGN)
+        try:
+            live = self.start(*LONG)
+        finally:
+            signal.signal(signal.SIGHUP, before)
+        live.wait_for("step +1/")
+        os.kill(live.process.pid, signal.SIGHUP)
+        with self.assertRaises(subprocess.TimeoutExpired):
+            live.process.wait(2)
+        live.kill()
+
+    def test_output_that_nobody_reads(self) -> None:
+        """As behind `| head`: the run goes on to its end, with its exit code."""
+        for arguments, code in (((), 0), (settings(checkpoint_wall_limit_minutes=1e-9), 3)):
+            with self.subTest(code=code):
+                shutil.rmtree(self.part, ignore_errors=True)
+                reading, writing = os.pipe()
+                os.close(reading)
+                done = subprocess.run(command(self.part, *arguments), cwd=self.folder, stdout=writing, stderr=writing, timeout=SECONDS)
+                os.close(writing)
+                self.assertEqual(done.returncode, code)
+                self.assertEqual(result(self.part)["status"], "completed" if code == 0 else "interrupted")
+                self.assertGreaterEqual(len(checkpoints(self.part)), 1)
+
+    def test_before_there_is_anything_to_save(self) -> None:
+        """While the mesh is read: at once, with the exit code of interrupted runs, and the folder as it was."""
+        os.mkfifo(self.folder / "slow.msh")  # which nobody writes to
+        for number in (signal.SIGTERM, signal.SIGINT, signal.SIGUSR2, signal.SIGHUP):
+            with self.subTest(number=number):
+                live = self.start(*settings(mesh_file="slow.msh"))
+                while not (self.part / ".alphadot_lock").exists():
+                    self.assertIsNone(live.process.poll())
+                    time.sleep(0.01)
+                os.kill(live.process.pid, number)
+                self.assertEqual(live.process.wait(5), 3)
+                self.assertIn("stopped by a signal before anything was computed", live.text())
+                self.assertEqual([file.name for file in self.part.iterdir()], [".alphadot_lock"])
+                (self.part / ".alphadot_lock").unlink()
 
     def test_sigint(self) -> None:
         self.stopped_by(signal.SIGINT, 1)

@@ -3,7 +3,11 @@
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
+#include <sys/syscall.h>
+#include <unistd.h>
 
+#include <cerrno>
 #include <csignal>
 #include <filesystem>
 #include <fstream>
@@ -11,6 +15,20 @@
 
 #include "core/error.hpp"
 #include "io/temporary_folder.hpp"
+
+namespace {
+bool folders_fail = false;
+}
+
+/// In place of the system's: brings no folder to disk while `folders_fail`.
+extern "C" int fsync(int fd) {
+  struct stat found {};
+  if (folders_fail && fstat(fd, &found) == 0 && S_ISDIR(found.st_mode)) {
+    errno = EIO;
+    return -1;
+  }
+  return static_cast<int>(syscall(SYS_fsync, fd));
+}
 
 namespace alphadot {
 namespace {
@@ -105,6 +123,17 @@ TEST(ReplaceFile, AFailingWriterLeavesTheOldFile) {
                             }),
                std::runtime_error);
   EXPECT_THROW(replace_file(folder / "f", [](const std::string&) {}), InputError);  // nothing written
+  EXPECT_EQ(contents(folder / "f"), "old");
+  EXPECT_EQ(entries(folder.path()), 1u);
+}
+
+// What cannot be brought to disk does not take the place of what is there.
+TEST(ReplaceFile, AFolderThatCannotBeBroughtToDiskKeepsTheOldFile) {
+  const TemporaryFolder folder;
+  replace_file_with(folder / "f", "old");
+  folders_fail = true;
+  EXPECT_THROW(replace_file_with(folder / "f", "new"), InputError);
+  folders_fail = false;
   EXPECT_EQ(contents(folder / "f"), "old");
   EXPECT_EQ(entries(folder.path()), 1u);
 }

@@ -3,13 +3,28 @@
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
+#include <sys/syscall.h>
+#include <unistd.h>
 
+#include <cerrno>
 #include <csignal>
 #include <filesystem>
 #include <fstream>
 
 #include "core/error.hpp"
 #include "io/temporary_folder.hpp"
+
+namespace {
+bool closing_fails = false;
+}
+
+/// In place of the system's: over quota, as network file systems tell only then, while `closing_fails`.
+extern "C" int close(int fd) {
+  const auto result = static_cast<int>(syscall(SYS_close, fd));
+  if (!closing_fails) return result;
+  errno = EDQUOT;
+  return -1;
+}
 
 namespace alphadot {
 namespace {
@@ -27,6 +42,31 @@ std::string message_of(Work work) {
     return error.what();
   }
   return "";
+}
+
+TEST(Hdf5, TellsOfAFileThatCannotBeClosed) {
+  const TemporaryFolder folder;
+  const std::string message = message_of([&] {
+    auto file = hdf5::File::create(folder / "a.h5");
+    file.write("numbers", std::vector<double>(1000, 1.0));
+    closing_fails = true;
+    file.close();
+  });
+  closing_fails = false;
+  EXPECT_NE(message.find("a.h5: cannot be written: Disk quota exceeded"), std::string::npos) << message;
+  {
+    auto file = hdf5::File::create(folder / "b.h5");  // and given up without a word: it is no crash
+    file.write("numbers", std::vector<double>(1000, 1.0));
+    closing_fails = true;
+  }
+  closing_fails = false;
+  {
+    const auto file = hdf5::File::open(folder / "b.h5");
+    EXPECT_EQ(file.dataset("numbers").read<double>()[999], 1.0);
+    closing_fails = true;
+  }
+  closing_fails = false;
+  EXPECT_EQ(open_objects(), 0);
 }
 
 TEST(Hdf5, ReadsBackWhatItWrote) {

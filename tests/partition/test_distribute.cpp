@@ -11,6 +11,7 @@
 
 #include "core/error.hpp"
 #include "parallel.hpp"
+#include "partition/delivery.hpp"
 #include "partition/subdomain.hpp"
 
 namespace alphadot {
@@ -284,6 +285,20 @@ TEST(SubdomainValidate, NoticesBreaches) {
   expect_noticed("ghost range", [](Subdomain& d) { ++d.neighbours[0].ghost_begin; });
   expect_noticed("face ghosts", [](Subdomain& d) { --d.neighbours[0].ghost_face_count; });
   expect_noticed("sent cells", [](Subdomain& d) { d.neighbours[0].send[0] = d.owned_cells; });
+}
+
+// More than MPI counts is refused on every rank, before anything is sent; the numbers alone tell.
+TEST(Delivery, TooManyItems) {
+  const Communicator comm;
+  std::vector<int> counts(static_cast<std::size_t>(comm.size()), 0);
+  counts[0] = item_count(std::size_t{1} << 33);
+  if (comm.rank() != comm.size() - 1) counts[0] = 0;
+  try {
+    deliver<char>({}, counts, comm);
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("use more ranks"), std::string::npos) << error.what();
+  }
 }
 
 }  // namespace

@@ -84,6 +84,14 @@ class Program(unittest.TestCase):
         self.assert_one_error(done)
         self.assertIn("File too large", done.stderr)
 
+    def test_the_file_itself_stays(self) -> None:
+        copy = self.folder / "mesh.cgns"
+        copy.write_bytes(SAMPLES[0].read_bytes())
+        done = self.convert(copy, copy)
+        self.assert_one_error(done)
+        self.assertIn("would replace the CGNS file", done.stderr)
+        self.assertEqual(copy.read_bytes(), SAMPLES[0].read_bytes())
+
     def test_command_line(self) -> None:
         self.assertEqual(self.convert().returncode, 2)
         self.assertEqual(self.convert("--help").returncode, 0)
