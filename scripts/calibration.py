@@ -150,7 +150,7 @@ def call(program: Path, condition: Condition, meshes: list[Path], coarser: int, 
     if coarser:
         changes["derivatives.coarser_meshes"] = json.dumps([str(path) for path in meshes[1 : coarser + 1]])
     words = [word for key, value in changes.items() for word in ("--set", f"{key}={value}")]
-    command = [program, "derivatives", CASES / case, "--out", out, "--quiet", *words, *(["--restart"] if coarser else [])]
+    command = [program, "derivatives", CASES / case, "--out", out, "--overwrite", "--quiet", *words, *(["--restart"] if coarser else [])]
     done = subprocess.run([str(word) for word in command], capture_output=True, text=True)
     if done.returncode not in (0, 5):
         sys.exit(f"calibration.py: {condition.name}: {done.stderr}")
