@@ -70,7 +70,7 @@ def parse() -> argparse.Namespace:
         prog="alphadot mesh", description=__doc__.replace("mesh.py", "alphadot mesh"),
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )  # fmt: skip
-    parser.add_argument("description", type=Path, nargs="?", metavar="DESCRIPTION", help="missile.toml")
+    parser.add_argument("description", type=Path, nargs="?", metavar="DESCRIPTION", help="missile.toml, or a design of OpenRocket (.ork) or RASAero II (.CDX1)")
     parser.add_argument("-o", "--output", type=Path, metavar="FOLDER", help="default: the description's name, here")
     sizes = parser.add_mutually_exclusive_group()
     levels = ", ".join(f"{name} {cells:,}" for name, cells in program.LEVELS.items())
@@ -81,6 +81,7 @@ def parse() -> argparse.Namespace:
     sizes.add_argument("--cells", type=cell_count, metavar="N", help="tetrahedra of the mesh instead of a level's")
     parser.add_argument("--mach", type=mach_range, metavar="LOW:HIGH", help="in place of the description's range")
     parser.add_argument("--model", choices=program.MODELS, help="default: half where the missile is symmetric about y = 0")
+    parser.add_argument("--stages", type=int, nargs="+", metavar="N", help="of an .ork file, 1 at the nose (default: all)")
     parser.add_argument("--no-picture", action="store_true", help="leave out the picture")
     parser.add_argument("--keys", action="store_true", help="print every key of a description, and end")
     arguments = parser.parse_args()

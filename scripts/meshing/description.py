@@ -13,7 +13,7 @@ import numpy as np
 
 from meshing import planforms, profiles
 from meshing.keys import REQUIRED, Key, Name, Number, Numbers, Points, Schema, Switch, Text, Whole, Word, described, read_table
-from meshing.missile import Flight, Missile, Panel, Reference
+from meshing.missile import Flight, Missile, Panel, Reference, ring
 from meshing.planforms import Planform
 from meshing.profiles import Body, Segment
 from meshing.sections import KINDS, Section
@@ -21,6 +21,7 @@ from meshing.tetrahedra import MeshError
 from meshing.toml_file import DescriptionError, Place, TomlFile
 
 LENGTH = Number(above=0.0)
+STANDING = 0.25  # of the root chord must stand on the body; the rest may reach over its end
 SHAPES = ("cone", "tangent_ogive", "secant_ogive", "von_karman", "haack", "power", "parabolic", "elliptic", "cylinder", "table")
 UNITS = ("m", "mm", "cm", "in", "ft", "d")
 
@@ -345,7 +346,7 @@ class _Reader:
         root = float(planform.chord[0])
         x = values["x"] if values["x"] is not None else values["x_end"] - root
         key = "x" if values["x"] is not None else "x_end"
-        if x <= 0.0 or x + root > body.length * (1.0 + 1e-9):
+        if x <= 0.0 or x + STANDING * root > body.length * (1.0 + 1e-9):
             self.complain(place, key, f"the root goes from {x:g} to {x + root:g}, and must stand on the body, 0 to {body.length:g}")
             return None
         hinge = 0.5 * root if values["hinge"] is None else values["hinge"]
@@ -361,13 +362,9 @@ class _Reader:
         if placed is None:
             return []
         planform, section, x, hinge = placed
-        root = float(body.radius(np.array([x]))[0])
         deflections = deflections * number if len(deflections) == 1 else deflections
-        return [
-            Panel(f"{name}_{i + 1}", name, self.file.where(place), values["roll"] + 360.0 * i / number, x, root, planform, section,
-                  values["cant"] + deflections[i], hinge)
-            for i in range(number)
-        ]  # fmt: skip
+        turned = [values["cant"] + deflection for deflection in deflections]
+        return ring(name, self.file.where(place), values["roll"], x, body, planform, section, turned, hinge)
 
     def wing(self, place: Place, values: dict[str, Any], body: Body) -> list[Panel]:
         name = values["name"] or ("wing" if place.index == 0 else f"wing{place.index + 1}")

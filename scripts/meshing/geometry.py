@@ -19,6 +19,7 @@ from meshing.sector import Sector
 from meshing.tetrahedra import MeshError
 
 FLAT = 1e-9  # diameters off its plane
+ON_BODY = 2e-3  # diameters off the profile: OpenCASCADE's splines differ from ours at blunt tips
 
 
 def build_fluid(missile: Missile, domain: Domain, sector: Sector) -> None:
@@ -150,6 +151,11 @@ def _inner_end(panel: Panel, body: Body) -> float:
         radius = np.interp(points[:, 0], outline[:, 0], outline[:, 1], left=0.0)  # behind the base goes on
         if np.all(np.hypot(points[:, 1], points[:, 2]) < radius - 1e-3):
             return s
+    # Too thick for that: down to the axis, where its middle plane is inside.
+    x, _ = _section_at(panel, 0.0)
+    ends = panel.to_space(np.array([[x.min(), 0.0, 0.0], [x.max(), 0.0, 0.0]]))[:, 0]
+    if ends.min() > 0.0 and not panel.deflection:
+        return 0.0
     raise MeshError(
         f"{panel.where}: the root of '{panel.name}' reaches out of the body at its ends; make it thinner, move it off the tip, "
         "or turn it by a smaller angle"
@@ -298,7 +304,7 @@ class Classifier:
                 return step[2]
         for name, outline in self._outlines.items():
             within = x.min() > outline[0, 0] - 1e-6 and x.max() < outline[-1, 0] + 1e-6
-            if within and np.all(np.abs(r - np.interp(x, outline[:, 0], outline[:, 1])) < 2e-4):
+            if within and np.all(np.abs(r - np.interp(x, outline[:, 0], outline[:, 1])) < ON_BODY):
                 return name
         return self._fin(points)
 

@@ -13,7 +13,8 @@ def split_corners(mesh: TetMesh) -> TetMesh:
 
     Such a tetrahedron has two neighbours only, so that its gradient is poor. The edge that is in neither boundary face is cut at
     its middle together with every tetrahedron around it; each half then keeps one boundary face. Edges that share a tetrahedron
-    are cut in successive rounds. The boundary does not change.
+    are cut in successive rounds. The boundary does not change. Where that edge is on the boundary itself, as in narrow places, the
+    tetrahedron is split at its centre.
     """
     points, tets = mesh.points, mesh.tets
     while True:
@@ -37,7 +38,7 @@ def split_corners(mesh: TetMesh) -> TetMesh:
         refused = np.unique(all_keys[touched][hit[touched] & (all_keys[touched] != taken[:, None])])
         chosen = np.setdiff1d(candidates, refused)
         if len(chosen) == 0:
-            return current
+            return split_at_centres(current, np.flatnonzero(on_boundary.sum(axis=1) >= 2))
         a, b = chosen // n, chosen % n
         rows = touched[np.isin(taken, chosen)]
         new = n + np.searchsorted(chosen, taken[np.isin(taken, chosen)])
@@ -46,6 +47,21 @@ def split_corners(mesh: TetMesh) -> TetMesh:
         second = np.where(old == b[new - n, None], new[:, None], old)
         tets = np.concatenate([np.delete(tets, rows, axis=0), first, second])
         points = np.concatenate([points, 0.5 * (points[a] + points[b])])
+
+
+def split_at_centres(mesh: TetMesh, cells: np.ndarray) -> TetMesh:
+    """Each of some tetrahedra in four, around its centre: every one then has one of its faces."""
+    if len(cells) == 0:
+        return mesh
+    old = mesh.tets[cells]
+    new = len(mesh.points) + np.arange(len(cells))
+    parts = []
+    for corner in range(4):
+        part = old.copy()
+        part[:, corner] = new
+        parts.append(part)
+    tets = np.concatenate([np.delete(mesh.tets, cells, axis=0), *parts])
+    return TetMesh(np.concatenate([mesh.points, mesh.points[old].mean(axis=1)]), tets, mesh.patches)
 
 
 def relaxed(mesh: TetMesh, below: float = 0.4, sweeps: int = 3) -> TetMesh:

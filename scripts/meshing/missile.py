@@ -90,6 +90,19 @@ class Panel:
         )  # fmt: skip
 
 
+def ring(
+    name: str, where: str, roll: float, x: float, body: Body, planform: Planform, section: Section, deflections: list[float],
+    hinge: float | None = None,
+) -> list[Panel]:
+    """Equal panels at equal angles, one for each deflection; the first at `roll`; the hinge at half of the root chord unless given."""
+    root = float(body.radius(np.array([min(x, body.length)]))[0])
+    hinge = 0.5 * float(planform.chord[0]) if hinge is None else hinge
+    return [
+        Panel(f"{name}_{i + 1}", name, where, roll + 360.0 * i / len(deflections), x, root, planform, section, deflection, hinge)
+        for i, deflection in enumerate(deflections)
+    ]
+
+
 def exactly(value: float) -> float:
     """0, 1 and -1 without the last bit's error of sine and cosine."""
     nearest = round(value)

@@ -16,7 +16,10 @@ from meshing.description import describe_keys, read_description
 from meshing.files import write
 from meshing.mesher import LEVELS, MODELS, Made, make_mesh
 from meshing.missile import Flight, Missile
+from meshing.openrocket import read_openrocket
+from meshing.rasaero import read_rasaero
 from meshing.tetrahedra import MeshError
+from meshing.toml_file import DescriptionError
 
 FEWEST, MOST = 5_000, 5_000_000  # cells
 
@@ -27,7 +30,7 @@ def main(arguments: argparse.Namespace) -> int:
         print(describe_keys(), end="")
         return 0
     try:
-        missile = read_description(arguments.description)
+        missile = read_missile(arguments.description, arguments.stages)
         if arguments.mach:
             missile = replace(missile, flight=Flight(arguments.mach, missile.flight.alpha))
         write_all(missile, arguments)
@@ -36,6 +39,20 @@ def main(arguments: argparse.Namespace) -> int:
             print(f"alphadot mesh: error: {line}", file=sys.stderr)
         return 1
     return 0
+
+
+def read_missile(path: Path, stages: list[int] | None) -> Missile:
+    """A description in any format, told by the end of its name. Raises DescriptionError."""
+    suffix = path.suffix.lower()
+    if suffix == ".ork":
+        return read_openrocket(path, stages)
+    if stages:
+        raise DescriptionError([f"{path}: only designs of OpenRocket (.ork) have stages to choose; leave --stages out"])
+    if suffix == ".toml":
+        return read_description(path)
+    if suffix == ".cdx1":
+        return read_rasaero(path)
+    raise DescriptionError([f"{path}: what is '{path.suffix}'? Descriptions are .toml, .ork of OpenRocket, or .CDX1 of RASAero II"])
 
 
 def write_all(missile: Missile, arguments: argparse.Namespace) -> None:

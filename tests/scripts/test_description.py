@@ -101,7 +101,7 @@ class Refusals(Described):
         self.refused(BODY.replace('"cone"', '"kone"'), 2, "kone", "did you mean 'cone'?")
         self.refused(BODY + FINS.replace("number = 4", "number = 4.5"), 9, "number = 4.5", "whole number")
         self.refused(BODY + FINS.replace("root_chord = 1\n", ""), 8, "needs the key 'root_chord'")
-        self.refused(BODY + FINS.replace("x_end = 10", "x_end = 11"), 10, "must stand on the body")
+        self.refused(BODY + FINS.replace("x_end = 10", "x_end = 11.1"), 10, "must stand on the body")
         self.refused(BODY + FINS + "x = 9\n", 14, "either 'x'")
         self.refused(BODY + FINS + "deflection = [1, 2]\n", 14, "2 values for 4 panels")
         self.refused(BODY + FINS + "bevel = 0.1\n", 14, "no bevels")
