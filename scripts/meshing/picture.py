@@ -28,8 +28,10 @@ def draw(missile: Missile, made: Made, path: Path) -> None:
     triangles, colours = _surface(missile, made)
     low, high = triangles.min(axis=(0, 1)), triangles.max(axis=(0, 1))
     length, wide, tall = high - low
-    figure = plt.figure(figsize=(13.0, max(13.0 * 0.8 * (wide + tall) / (length + max(wide, tall)), 4.0)), layout="constrained")
-    grid = figure.add_gridspec(2, 2, width_ratios=(length, max(wide, tall)), height_ratios=(tall, wide))
+    margin = 0.35 * max(wide, tall)  # for dimensions
+    scale = 11.5 / (length + wide + 2.0 * margin)  # inches for a unit
+    figure = plt.figure(figsize=(13.0, max(scale * (wide + tall + 2.0 * margin) + 1.8, 4.5)), layout="constrained")
+    grid = figure.add_gridspec(2, 2, width_ratios=(length + margin, wide + margin), height_ratios=(tall + margin, wide + margin))
     places = {"from starboard": grid[0, 0], "from above": grid[1, 0], "from behind": grid[:, 1]}
     for title, place in places.items():
         axes = figure.add_subplot(place)
@@ -96,6 +98,7 @@ def _dimensions(axes: list[Axes], missile: Missile, low: np.ndarray, high: np.nd
     for name in fin_sets(missile):
         panel = next(p for p in missile.panels if p.set_name == name)
         above.annotate(f"{name}: root {panel.planform.chord[0]:.4g}, tip {panel.planform.chord[-1]:.4g}, span {panel.planform.span:.4g}",
-                       (panel.x + 0.5 * panel.planform.chord[0], low[1]), fontsize=7, ha="center", va="bottom")  # fmt: skip
+                       (panel.x + 0.5 * panel.planform.chord[0], low[1] - 0.5 * gap), fontsize=7, ha="center", va="top")  # fmt: skip
+    above.set_ylim(low[1] - 3.0 * gap, high[1] + gap)
     measure(behind, (low[1], low[2] - gap), (high[1], low[2] - gap), f"{high[1] - low[1]:.4g}")
     behind.set_ylim(low[2] - 2.0 * gap, high[2] + gap)

@@ -62,5 +62,6 @@ class TomlFile:
 
     def where(self, place: Place, key: str = "") -> str:
         """"FILE:LINE" of a key, or of its table where the key is missing."""
-        line = self._lines.get((place, key), self._lines.get((place, ""), 1))
+        table = self._lines.get((place, ""), self._lines.get((Place(""), place.table), 1))  # the latter: an inline table
+        line = self._lines.get((place, key), table)
         return f"{self.path}:{line}"

@@ -108,6 +108,7 @@ class Refusals(Described):
         self.refused(BODY + '[flight]\nmach = [2, 1.5]\n', 9, "lowest Mach number comes first")
         self.refused(BODY + "[[body]]\nshape = \"cylinder\"\n", 8, "needs the key 'length'")
         self.refused(BODY.replace("[[body]]", "[body]", 1).split("[[body]]")[0], 1, "[[body]]", "two brackets")
+        self.refused('title = "x"\nflight = {mach = -1}\n' + BODY, 2, "mach = -1", "each a number above 0")
         self.refused("unit = 3\n" + BODY, 1, "unit = 3", "one of m, mm")
         self.refused("title = \"x\n", 1, "is not TOML")
 
