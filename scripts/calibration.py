@@ -3,7 +3,7 @@
 
 Runs cones, wedges, diamonds and a thin delta wing on three meshes each and takes from the program itself the derivatives by alpha, q
 and alphadot, loads CN and Cm, with their uncertainties: without a coarser mesh, with one and with two. The exact values come from
-scripts/exact. The cases are two sets without a common mesh or condition: the factors of src/analysis/mesh_convergence.cpp were chosen
+scripts/exact. The cases are two sets without a common mesh or condition: the factor of src/analysis/mesh_convergence.cpp was chosen
 on the first, and the second shows what they are worth. The sharp delta wing is 0.1 % thick, its exact values are those of no thickness
 (0.4 % apart by the trend in cases/delta_wing).
 

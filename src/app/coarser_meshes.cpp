@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <numeric>
@@ -35,22 +36,30 @@ void add(const std::string& file, const InputError& error, std::vector<Problem>&
   }
 }
 
-/// How fine a mesh is.
-struct Fineness {
+/// How fine a mesh is, and how large the walls of its body, in reference areas.
+struct Measures {
   GlobalIndex cells;
-  Real spacing;
+  Real spacing, wall_area;
 };
 
-Fineness fineness_of(const Setup& mesh, const Communicator& comm) {
-  return {mesh.mesh.cells, spacing_of(mesh, comm)};
+Measures measures_of(const Setup& mesh, const Communicator& comm) {
+  return {mesh.mesh.cells, spacing_of(mesh, comm), mesh.configuration.wall_area};
 }
 
-void check_is_coarser(const Setup& mesh, const Fineness& found, const Fineness& before) {
+/// Refuses a mesh that is not coarser than the one before, or not of the same body.
+void check_is_coarser(const Setup& mesh, const Measures& found, const Measures& before) {
   if (found.spacing < least_refinement_ratio * before.spacing)
     throw InputError(
         mesh.settings.file, 0,
         fmt::format("{} cells are not coarser than the {} of the mesh before", found.cells, before.cells),
         "list meshes that become coarser by 1.3 in each direction");
+  constexpr Real like_areas = 1.2;  // facets of curved walls are smaller on a coarser mesh, but not by more
+  const auto [least, most] = std::minmax(found.wall_area, before.wall_area);
+  if (most > like_areas * least)
+    throw InputError(mesh.settings.file, 0,
+                     fmt::format("its walls measure {:.4g} reference areas, those of the mesh before {:.4g}",
+                                 found.wall_area, before.wall_area),
+                     "list meshes of the same body in the same unit");
 }
 
 }  // namespace
@@ -59,11 +68,11 @@ std::vector<std::unique_ptr<FlowCase>> coarser_cases(const CaseArguments& argume
   std::vector<std::unique_ptr<FlowCase>> out;
   std::vector<Problem> problems;
   const auto& comm = finest.communicator();
-  auto finer = fineness_of(finest.setup(), comm);
+  auto finer = measures_of(finest.setup(), comm);
   const auto& files = finest.settings().derivatives.coarser_meshes;
   for (std::size_t i = 0; i < files.size(); ++i) try {
       out.push_back(std::make_unique<FlowCase>(on_mesh(arguments, finest, i), "derivatives", comm));
-      const auto found = fineness_of(out.back()->setup(), comm);
+      const auto found = measures_of(out.back()->setup(), comm);
       check_is_coarser(finest.setup(), found, std::exchange(finer, found));
     } catch (const InputError& error) {
       add(files[i], error, problems);
@@ -74,11 +83,11 @@ std::vector<std::unique_ptr<FlowCase>> coarser_cases(const CaseArguments& argume
 
 void check_coarser_meshes(const Setup& finest, const Communicator& comm) {
   std::vector<Problem> problems;
-  auto finer = fineness_of(finest, comm);
+  auto finer = measures_of(finest, comm);
   for (const auto& file : finest.settings.derivatives.coarser_meshes) try {
       Case settings = finest.settings;
       settings.mesh.file = file;
-      const auto found = fineness_of(load_setup(settings, comm), comm);
+      const auto found = measures_of(load_setup(settings, comm), comm);
       check_is_coarser(finest, found, std::exchange(finer, found));
     } catch (const InputError& error) {
       add(file, error, problems);

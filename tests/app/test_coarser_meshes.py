@@ -134,7 +134,11 @@ class CoarserMeshes(unittest.TestCase):
 
     def test_mistakes_are_told_before_anything_is_computed(self) -> None:
         (self.folder / "other.msh").write_text(gmsh_text(*box(2)).replace('"sides"', '"flanks"'))
+        points, cells, patches = box(3)
+        longer = [(2 * x, y, z) for x, y, z in points]
+        (self.folder / "longer.msh").write_text(gmsh_text(longer, cells, patches))
         for meshes, words in (
+            ('["longer.msh"]', "derivatives.coarser_meshes, longer.msh: its walls measure 2 reference areas, those of the mesh before 1"),
             ('["missing.msh"]', "derivatives.coarser_meshes, missing.msh: cannot read the file"),
             ('["other.msh"]', 'derivatives.coarser_meshes, other.msh: patch "flanks" of the mesh has no boundary condition'),
             ('["box3.msh", "box4.msh"]', "derivatives.coarser_meshes, box4.msh: 384 cells are not coarser than the 162"),
