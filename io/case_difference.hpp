@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/case.hpp"
+#include "io/case.hpp"
 
 namespace alphadot {
 

@@ -5,8 +5,8 @@
 #include <string_view>
 #include <vector>
 
-#include "core/case.hpp"
 #include "core/error.hpp"
+#include "io/case.hpp"
 
 namespace alphadot {
 

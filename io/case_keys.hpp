@@ -9,8 +9,8 @@
 #include <string_view>
 #include <vector>
 
-#include "core/case.hpp"
 #include "core/error.hpp"
+#include "io/case.hpp"
 
 namespace alphadot {
 

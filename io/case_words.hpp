@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "core/case.hpp"
+#include "io/case.hpp"
 
 namespace alphadot {
 

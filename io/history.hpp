@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/case.hpp"
+#include "io/case.hpp"
 #include "io/hdf5.hpp"
 #include "io/provenance.hpp"
 

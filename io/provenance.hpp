@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "core/case.hpp"
+#include "core/flight.hpp"
 
 namespace alphadot {
 

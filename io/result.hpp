@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/case.hpp"
+#include "core/flight.hpp"
 #include "core/run_status.hpp"
 #include "io/provenance.hpp"
 

@@ -19,6 +19,7 @@ inline constexpr GlobalIndex rows_in_piece = 1 << 18;
 template <class Element, class Row>
 void write_rows(const std::optional<hdf5::File>& file, const std::string& name, std::span<const Row> rows,
                 GlobalIndex total, GlobalIndex columns, const Communicator& comm) {
+  // NOLINTNEXTLINE(bugprone-sizeof-expression): a row may be one element
   constexpr auto in_row = static_cast<GlobalIndex>(sizeof(Row) / sizeof(Element));
   const GlobalIndex rows_of_file = columns == 0 ? in_row : 1;
   std::optional<hdf5::Dataset> target;

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "analysis/derivatives.hpp"
-#include "core/case.hpp"
+#include "core/flight.hpp"
 
 namespace alphadot {
 

@@ -4,7 +4,7 @@
 #include "analysis/derivatives.hpp"
 #include "analysis/force_history.hpp"
 #include "analysis/harmonic_fit.hpp"
-#include "core/case.hpp"
+#include "motion/settings.hpp"
 
 namespace alphadot {
 
@@ -29,7 +29,7 @@ struct HarmonicDerivatives {
 /// With angle = a0 + am sin(k t* + phase), X = X0 + X_angle am sin() + X_rate k am cos() (the paper's (6)),
 /// so X_angle = in phase / am and X_rate = out of phase / (k am), per rad, rates with l/2V. a0, am and phase
 /// are fitted to the angle's own history: no phase error enters from how the motion was set up. At finite k,
-/// X_angle holds terms of order k^2: see low_frequency_limit.
+/// X_angle holds terms of order k^2, which linear solves are free of.
 ///
 /// The plunge by field velocity, the paper's (4), keeps the axial velocity, so that the speed seen by the
 /// body is V cos(a0) / cos(alpha) while the loads stay normalised with the fixed V. X_alpha is therefore the

@@ -5,7 +5,7 @@
 
 #include "analysis/derivatives.hpp"
 #include "analysis/force_history.hpp"
-#include "core/case.hpp"
+#include "motion/settings.hpp"
 
 namespace alphadot {
 

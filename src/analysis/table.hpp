@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "analysis/axes.hpp"
-#include "core/case.hpp"
+#include "core/flight.hpp"
 
 namespace alphadot {
 

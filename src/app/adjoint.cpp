@@ -35,7 +35,7 @@ std::vector<Functional> functionals_of(std::vector<std::string> names, const Cas
       if (!half || name == "CA" || name == "CN" || name == "Cm") names.emplace_back(name);
   }
   std::vector<Functional> out;
-  for (const auto& name : names) out.push_back(parse_functional(name, "--of", settings));
+  for (const auto& name : names) out.push_back(parse_functional(name, "--of", settings, settings.boundary));
   return out;
 }
 

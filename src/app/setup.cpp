@@ -167,7 +167,8 @@ Setup load_setup(const Case& settings, const Communicator& comm) {
   }
   out.configuration = survey(out.domain, out.patch_kinds, settings, comm);
   comm.on_all([&] {
-    auto [problems, warnings] = judge(out.configuration, out.domain.patch_names, settings);
+    auto [problems, warnings] =
+        judge(out.configuration, out.domain.patch_names, settings, settings.mesh.scale, settings.file);
     if (!problems.empty()) throw InputError(std::move(problems));
     out.warnings = std::move(warnings);
   });

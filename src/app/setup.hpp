@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "core/case.hpp"
 #include "core/communicator.hpp"
+#include "io/case.hpp"
 #include "io/result.hpp"
 #include "motion/motion_table.hpp"
 #include "partition/subdomain.hpp"

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/case.hpp"
+#include "derivatives/settings.hpp"
 #include "linear/tangent_transpose.hpp"
 #include "march/implicit_iteration.hpp"
 

@@ -11,9 +11,9 @@
 #include <utility>
 #include <vector>
 
-#include "core/case.hpp"
 #include "core/error.hpp"
 #include "derivatives/preconditioner.hpp"
+#include "derivatives/settings.hpp"
 #include "linear/krylov_basis.hpp"
 
 namespace alphadot {

@@ -36,7 +36,7 @@ int rates_in(Variable variable) {
   return variable == alphadot || variable == betadot ? 1 : 0;
 }
 
-Real rate_scale(Variable variable, const Case& settings) {
+Real rate_scale(Variable variable, const FlightCondition& settings) {
   using enum Variable;
   const bool is_rotation = variable == p || variable == q || variable == r;
   return std::pow(2 * settings.freestream.mach / settings.reference.length,

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "analysis/derivatives.hpp"
-#include "core/case.hpp"
 #include "linear/tangent.hpp"
+#include "motion/flight_condition.hpp"
 
 namespace alphadot {
 
@@ -20,6 +20,6 @@ int rates_in(Variable variable);
 
 /// What a derivative by a variable in radians per unit of time is multiplied by to be one by the reduced
 /// variable: a power of 2 V / length.
-Real rate_scale(Variable variable, const Case& settings);
+Real rate_scale(Variable variable, const FlightCondition& settings);
 
 }  // namespace alphadot

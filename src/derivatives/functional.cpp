@@ -49,7 +49,8 @@ std::string Functional::name() const {
                      suffixes[static_cast<std::size_t>(rates)], at_patches(*this));
 }
 
-Functional parse_functional(std::string_view name, const std::string& where, const Case& settings) {
+Functional parse_functional(std::string_view name, const std::string& where, const FlightCondition& settings,
+                            const std::map<std::string, BoundaryKind>& boundary) {
   Functional out;
   const std::size_t at = std::min(name.find('@'), name.size()), end_of_coefficient = name.find('_');
   const auto coefficient = name.substr(0, std::min(at, end_of_coefficient));
@@ -66,8 +67,8 @@ Functional parse_functional(std::string_view name, const std::string& where, con
   out.rates = static_cast<int>(rates - suffixes.begin());
   if (at < name.size()) out.patches = split(name.substr(at + 1), '+');
   for (const auto& patch : out.patches) {
-    const auto kind = settings.boundary.find(patch);
-    if (kind == settings.boundary.end() || kind->second != BoundaryKind::wall)
+    const auto kind = boundary.find(patch);
+    if (kind == boundary.end() || kind->second != BoundaryKind::wall)
       throw InputError(where, 0, fmt::format("\"{}\" is no wall of the case", patch),
                        "name patches that [boundary] makes walls");
   }
@@ -79,7 +80,7 @@ Functional parse_functional(std::string_view name, const std::string& where, con
 }
 
 std::vector<Load> weights_of(const Functional& functional, const std::vector<std::string>& patch_names,
-                             const Case& settings) {
+                             const FlightCondition& settings) {
   const Load weight = coefficient_weight(functional.coefficient, settings);
   std::vector<Load> out;
   for (const auto& patch : patch_names) {
@@ -90,7 +91,7 @@ std::vector<Load> weights_of(const Functional& functional, const std::vector<std
   return out;
 }
 
-std::vector<Variable> variables_of(const Functional& functional, const Case& settings) {
+std::vector<Variable> variables_of(const Functional& functional, const FlightCondition& settings) {
   using enum Variable;
   const bool half = settings.reference.half_model;
   switch (functional.rates) {
@@ -108,7 +109,7 @@ std::string derivative_name(const Functional& functional, std::string_view varia
                      at_patches(functional));
 }
 
-Estimate derivative(const Adjoint& adjoint, Variable variable, const Case& settings) {
+Estimate derivative(const Adjoint& adjoint, Variable variable, const FlightCondition& settings) {
   const auto change = change_of(angle_of(variable), settings.freestream);
   const Real scale = rate_scale(variable, settings);
   return scale *

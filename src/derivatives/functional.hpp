@@ -1,13 +1,14 @@
 // The functionals that adjoints are solved for: coefficients of the body or of some of its patches.
 #pragma once
 
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "analysis/derivatives.hpp"
-#include "core/case.hpp"
 #include "derivatives/adjoint.hpp"
+#include "motion/flight_condition.hpp"
 
 namespace alphadot {
 
@@ -26,20 +27,21 @@ struct Functional {
 
 /// From its name. Throws InputError that names `where` when there is no such coefficient or patch, or when
 /// symmetry makes it zero.
-Functional parse_functional(std::string_view name, const std::string& where, const Case& settings);
+Functional parse_functional(std::string_view name, const std::string& where, const FlightCondition& flight,
+                            const std::map<std::string, BoundaryKind>& boundary);
 
 /// What it takes of the load of every patch; nothing of those that are not its own.
 std::vector<Load> weights_of(const Functional& functional, const std::vector<std::string>& patch_names,
-                             const Case& settings);
+                             const FlightCondition& settings);
 
 /// What it can be differentiated by: alpha, q (and beta, p, r on a full model), or their rates.
-std::vector<Variable> variables_of(const Functional& functional, const Case& settings);
+std::vector<Variable> variables_of(const Functional& functional, const FlightCondition& settings);
 
 /// The name of a derivative, "Cm_alpha" or "Cm_alpha@fin_1".
 std::string derivative_name(const Functional& functional, std::string_view variable);
 
 /// The derivative that an adjoint of the functional gives, by the reduced variable; the uncertainty is what
 /// the linear solve leaves.
-Estimate derivative(const Adjoint& adjoint, Variable variable, const Case& settings);
+Estimate derivative(const Adjoint& adjoint, Variable variable, const FlightCondition& settings);
 
 }  // namespace alphadot

@@ -2,14 +2,14 @@
 #pragma once
 
 #include "analysis/coefficients.hpp"
-#include "core/case.hpp"
+#include "motion/flight_condition.hpp"
 #include "space/forces.hpp"
 
 namespace alphadot {
 
 /// Divides by the dynamic pressure and the reference area (and length). A half model counts twice, and what
 /// its mirror image cancels is zero.
-inline Coefficients coefficients(const Load& load, const Case& settings) {
+inline Coefficients coefficients(const Load& load, const FlightCondition& settings) {
   const auto& reference = settings.reference;
   const Real dynamic_pressure = 0.5 * settings.freestream.mach * settings.freestream.mach;
   const Real scale = (reference.half_model ? 2 : 1) / (dynamic_pressure * reference.area);
@@ -19,7 +19,7 @@ inline Coefficients coefficients(const Load& load, const Case& settings) {
 }
 
 /// The transpose: what a coefficient, by its number, takes of each entry of a load.
-inline Load coefficient_weight(int coefficient, const Case& settings) {
+inline Load coefficient_weight(int coefficient, const FlightCondition& settings) {
   Load out;
   for (int axis = 0; axis < 3; ++axis) {
     Load force, moment;

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/case.hpp"
+#include "derivatives/settings.hpp"
 #include "linear/tangent.hpp"
 #include "march/implicit_iteration.hpp"
 

@@ -10,7 +10,7 @@ namespace {
 constexpr Real relative_step = 1e-5;
 
 /// Residual of a flow under the conditions of a case, and its loads.
-std::vector<Load> evaluate(ImplicitIteration& iteration, const Case& settings,
+std::vector<Load> evaluate(ImplicitIteration& iteration, const FlightCondition& settings,
                            std::vector<Conserved<Real>>& residual) {
   const auto& about = iteration.discretization();
   const auto& comm = iteration.communicator();
@@ -31,7 +31,8 @@ std::vector<Load> evaluate(ImplicitIteration& iteration, const Case& settings,
 
 }  // namespace
 
-StreamChange::StreamChange(ImplicitIteration& iteration, const Case& settings, const StreamNumber& number)
+StreamChange::StreamChange(ImplicitIteration& iteration, const FlightCondition& settings,
+                           const StreamNumber& number)
     : name_(number.name),
       step_(relative_step * settings.freestream.*number.at),
       below_{settings, {}},

@@ -1,8 +1,8 @@
 // The numerical flux that a case asks for.
 #pragma once
 
-#include "core/case.hpp"
 #include "euler/hllc.hpp"
+#include "euler/kinds.hpp"
 #include "euler/roe.hpp"
 #include "euler/van_leer.hpp"
 

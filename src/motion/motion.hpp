@@ -1,10 +1,11 @@
 // Prescribed motions: attitude, rates and field velocity as functions of time.
 #pragma once
 
-#include "core/case.hpp"
+#include "core/flight.hpp"
 #include "core/vec3.hpp"
 #include "motion/motion_table.hpp"
 #include "motion/rigid_motion.hpp"
+#include "motion/settings.hpp"
 
 namespace alphadot {
 

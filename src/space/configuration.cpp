@@ -31,7 +31,7 @@ Real distance(const Vec3& at, const Box& box) {
 /// Looks at one rank's share; every member function is collective.
 class Surveyor {
  public:
-  Surveyor(const Subdomain& domain, std::span<const BoundaryKind> kinds, const Case& settings,
+  Surveyor(const Subdomain& domain, std::span<const BoundaryKind> kinds, const FlightCondition& settings,
            const Communicator& comm)
       : domain_(domain), kinds_(kinds), settings_(settings), comm_(comm) {}
 
@@ -328,7 +328,7 @@ class Surveyor {
 
   const Subdomain& domain_;
   const std::span<const BoundaryKind> kinds_;
-  const Case& settings_;
+  const FlightCondition& settings_;
   const Communicator comm_;
   std::array<Vec3, 3> wind_{};  ///< unit vectors along and across the wind
   Configuration out_;
@@ -342,8 +342,8 @@ Real needed_far_field_distance(Real mach, bool is_section) {
   return (is_section ? of_section : of_wing) / std::sqrt(1 - m * m);
 }
 
-Configuration survey(const Subdomain& domain, std::span<const BoundaryKind> kinds, const Case& settings,
-                     const Communicator& comm) {
+Configuration survey(const Subdomain& domain, std::span<const BoundaryKind> kinds,
+                     const FlightCondition& settings, const Communicator& comm) {
   return Surveyor(domain, kinds, settings, comm).look();
 }
 

@@ -4,8 +4,9 @@
 #include <span>
 #include <vector>
 
-#include "core/case.hpp"
 #include "core/communicator.hpp"
+#include "euler/kinds.hpp"
+#include "motion/flight_condition.hpp"
 #include "partition/box.hpp"
 #include "partition/quality.hpp"
 #include "partition/regions.hpp"
@@ -70,7 +71,7 @@ struct Configuration {
 Real needed_far_field_distance(Real mach, bool is_section);
 
 /// Looks at a mesh. `kinds`: of every patch. Collective; below 1 us a cell.
-Configuration survey(const Subdomain& domain, std::span<const BoundaryKind> kinds, const Case& settings,
-                     const Communicator& comm);
+Configuration survey(const Subdomain& domain, std::span<const BoundaryKind> kinds,
+                     const FlightCondition& settings, const Communicator& comm);
 
 }  // namespace alphadot

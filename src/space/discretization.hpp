@@ -4,10 +4,10 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/case.hpp"
 #include "euler/boundary.hpp"
 #include "euler/flux.hpp"
 #include "partition/subdomain.hpp"
+#include "space/settings.hpp"
 
 namespace alphadot {
 

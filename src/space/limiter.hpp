@@ -3,9 +3,9 @@
 
 #include <cmath>
 
-#include "core/case.hpp"
 #include "core/dual.hpp"
 #include "core/four.hpp"
+#include "space/settings.hpp"
 
 namespace alphadot {
 

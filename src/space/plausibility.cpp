@@ -14,8 +14,9 @@ namespace {
 
 class Judge {
  public:
-  Judge(const Configuration& configuration, std::span<const std::string> patch_names, const Case& settings)
-      : facts_(configuration), names_(patch_names), settings_(settings) {}
+  Judge(const Configuration& configuration, std::span<const std::string> patch_names,
+        const FlightCondition& settings, Real scale, const std::string& file)
+      : facts_(configuration), names_(patch_names), settings_(settings), scale_(scale), file_(file) {}
 
   Findings findings() {
     judge_regions();
@@ -33,13 +34,13 @@ class Judge {
 
  private:
   void problem(std::string what, std::string remedy) {
-    out_.problems.push_back({settings_.file, 0, std::move(what), std::move(remedy)});
+    out_.problems.push_back({file_, 0, std::move(what), std::move(remedy)});
   }
   void warn(std::string what) { out_.warnings.push_back(std::move(what)); }
 
   /// As the mesh file has it.
   std::string text(const Vec3& at) const {
-    Vec3 p = (1 / settings_.mesh.scale) * at;
+    Vec3 p = (1 / scale_) * at;
     for (int d = 0; d < 3; ++d)
       if (std::abs(at[d]) < 1e-6 * facts_.tolerance) p[d] = 0;  // round-off
     return fmt::format("({:.5g}, {:.5g}, {:.5g})", p.x, p.y, p.z);
@@ -77,7 +78,7 @@ class Judge {
                        plane.normal.z);
   }
   std::string text(const SymmetryPlane& plane) const {
-    const Real offset = std::abs(plane.offset) <= facts_.tolerance ? 0 : plane.offset / settings_.mesh.scale;
+    const Real offset = std::abs(plane.offset) <= facts_.tolerance ? 0 : plane.offset / scale_;
     return plane_text(plane, offset);
   }
 
@@ -115,7 +116,7 @@ class Judge {
     if (lowest < -facts_.tolerance)
       problem(fmt::format(
                   "reference.model is \"half\", but the mesh goes on beyond the plane y = 0, to y = {:.5g}",
-                  lowest / settings_.mesh.scale),
+                  lowest / scale_),
               "set reference.model = \"full\", or cut the mesh at y = 0");
     for (const auto& plane : facts_.planes)
       if (plane.cuts_body && !is_across_y(plane))
@@ -169,8 +170,7 @@ class Judge {
 
   void judge_size() {
     const auto& reference = settings_.reference;
-    const std::string remedy =
-        fmt::format("; check mesh.scale = {:g} and the units of [reference]", settings_.mesh.scale);
+    const std::string remedy = fmt::format("; check mesh.scale = {:g} and the units of [reference]", scale_);
     if (facts_.body_length < plausible::shortest_body || facts_.body_length > plausible::longest_body)
       warn(fmt::format("the body is {:.4g} reference lengths long{}", facts_.body_length, remedy));
     const auto& seen = facts_.projected_area;
@@ -230,15 +230,17 @@ class Judge {
 
   const Configuration& facts_;
   const std::span<const std::string> names_;
-  const Case& settings_;
+  const FlightCondition& settings_;
+  Real scale_;
+  const std::string& file_;
   Findings out_;
 };
 
 }  // namespace
 
 Findings judge(const Configuration& configuration, std::span<const std::string> patch_names,
-               const Case& settings) {
-  return Judge(configuration, patch_names, settings).findings();
+               const FlightCondition& flight, Real scale, const std::string& file) {
+  return Judge(configuration, patch_names, flight, scale, file).findings();
 }
 
 }  // namespace alphadot

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "core/case.hpp"
 #include "core/error.hpp"
+#include "io/case.hpp"
 #include "space/configuration.hpp"
 
 namespace alphadot {
@@ -39,8 +39,9 @@ struct Findings {
   std::vector<std::string> warnings;  ///< it may be meant so
 };
 
-/// Compares. `patch_names`: of the mesh. Coordinates in the messages are those of the mesh file.
+/// Compares. `patch_names`: of the mesh; `scale`: its units in those of `flight`; `file`: of the case, for
+/// messages. Coordinates in the messages are those of the mesh file.
 Findings judge(const Configuration& configuration, std::span<const std::string> patch_names,
-               const Case& settings);
+               const FlightCondition& flight, Real scale, const std::string& file);
 
 }  // namespace alphadot

@@ -1,4 +1,4 @@
-// The two extrapolations: frequency to zero, mesh size to zero.
+// Extrapolation of the mesh size to zero.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -7,47 +7,12 @@
 #include <tuple>
 #include <vector>
 
-#include "analysis/low_frequency.hpp"
 #include "analysis/mesh_convergence.hpp"
 #include "core/error.hpp"
 #include "synthetic.hpp"
 
 namespace alphadot {
 namespace {
-
-// X = -23 + 40 k^2: two values determine it.
-TEST(LowFrequency, QuadraticFromTwoValues) {
-  const std::vector<Real> k{0.1, 0.05};
-  const std::vector<Estimate> x{{-23 + 40 * 0.01, 0}, {-23 + 40 * 0.0025, 0}};
-  const Estimate limit = low_frequency_limit(k, x);
-  EXPECT_NEAR(limit.value, -23, 1e-12);
-  EXPECT_NEAR(limit.uncertainty, 40 * 0.0025, 1e-12) << "the extrapolation beyond k = 0.05";
-}
-
-// A term in k^4 is exact with three values; with two its error c4 k1^2 k2^2 is inside the uncertainty.
-TEST(LowFrequency, QuarticNeedsThreeValues) {
-  const auto x = [](Real k) { return Estimate{-23 + 40 * k * k - 900 * std::pow(k, 4), 0}; };
-  const Estimate three =
-      low_frequency_limit(std::vector<Real>{0.02, 0.1, 0.05}, std::vector{x(0.02), x(0.1), x(0.05)});
-  EXPECT_NEAR(three.value, -23, 1e-12);
-  const Estimate two = low_frequency_limit(std::vector<Real>{0.05, 0.1}, std::vector{x(0.05), x(0.1)});
-  EXPECT_NEAR(two.value, -23 + 900 * 0.0025 * 0.01, 1e-12);
-  EXPECT_LE(std::abs(two.value + 23), two.uncertainty);
-}
-
-// Weights at k and 2k are 4/3 and -1/3: uncertainties of 0.3 become 0.4 + 0.1.
-TEST(LowFrequency, CarriesUncertaintiesAlong) {
-  const std::vector<Estimate> x{{5, 0.3}, {5, 0.3}};
-  EXPECT_NEAR(low_frequency_limit(std::vector<Real>{0.01, 0.02}, x).uncertainty, 0.5, 1e-12);
-}
-
-TEST(LowFrequency, Refuses) {
-  const std::vector<Estimate> x{{1, 0}, {2, 0}};
-  EXPECT_THROW(low_frequency_limit(std::vector<Real>{0.1}, std::span(x).first(1)), InputError);
-  EXPECT_THROW(low_frequency_limit(std::vector<Real>{0.1, 0.1}, x), InputError);
-  EXPECT_THROW(low_frequency_limit(std::vector<Real>{0, 0.1}, x), InputError);
-  EXPECT_THROW(low_frequency_limit(std::vector<Real>{0.1, 0.2, 0.3}, x), InputError);
-}
 
 /// A mesh of `cells` in a unit cube with the value a + c h^p.
 MeshLevel level(Real cells, Real a, Real c, Real p) {

@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <fstream>
 #include <map>
 #include <regex>
 #include <sstream>
@@ -10,7 +9,6 @@
 
 #include "analysis/avl.hpp"
 #include "analysis/jsbsim.hpp"
-#include "analysis/paper_table.hpp"
 #include "analysis/table.hpp"
 
 namespace alphadot {
@@ -107,48 +105,6 @@ TEST(FlightPoint, ExchangeFormatsSayTheStatus) {
   EXPECT_TRUE(contains(avl_stability_text(point), " Status: not_converged: on a--b.msh: 2 of 3 decades\n"));
   const auto xml = jsbsim_aerodynamics(point);
   EXPECT_TRUE(contains(xml, "Status: not_converged: on a- -b.msh: 2 of 3 decades.")) << xml;
-}
-
-// The numbers in the program are those of the case's reference file.
-TEST(PaperTable, EqualsTheReferenceFile) {
-  std::ifstream file(std::string(ALPHADOT_TEST_DATA) +
-                     "/../../cases/basic_finner/reference/paper_table1.csv");
-  std::size_t found = 0;
-  for (std::string line; std::getline(file, line);) {
-    PaperRow r{};
-    char c;
-    std::istringstream words(line);
-    if (!(words >> r.mach >> c >> r.static_grid >> c >> r.static_field >> c >> r.static_experiment >> c >>
-          r.acceleration_grid >> c >> r.acceleration_field >> c >> r.damping_grid >> c >> r.damping_field))
-      continue;
-    ASSERT_LT(found, paper_table_one.size());
-    const PaperRow& own = paper_table_one[found++];
-    EXPECT_EQ(own.mach, r.mach);
-    EXPECT_EQ(own.static_grid, r.static_grid);
-    EXPECT_EQ(own.static_field, r.static_field);
-    EXPECT_EQ(own.static_experiment, r.static_experiment);
-    EXPECT_EQ(own.acceleration_grid, r.acceleration_grid);
-    EXPECT_EQ(own.acceleration_field, r.acceleration_field);
-    EXPECT_EQ(own.damping_grid, r.damping_grid);
-    EXPECT_EQ(own.damping_field, r.damping_field);
-  }
-  EXPECT_EQ(found, paper_table_one.size());
-}
-
-// Cm_alpha -17 about 5.5 with CN_alpha 9.5 is -19.375 about 5.25; against the paper's -19.1333 that is -1.3
-// %. Cm_alphadot -23 with CN_alphadot 5 is -24.25, off by +8.16 (absolute). Damping was not computed.
-TEST(PaperTable, Comparison) {
-  ComputedPoint point{.mach = 2.5, .derivatives = {}};
-  point.derivatives[Variable::alpha].CN = {9.5, 0};
-  point.derivatives[Variable::alpha].Cm = {-17, 0.02};
-  point.derivatives[Variable::alphadot].CN = {5, 0};
-  point.derivatives[Variable::alphadot].Cm = {-23, 0.3};
-  const auto text = paper_comparison(std::vector{point}, 5.5, 5.25);
-  EXPECT_TRUE(contains(text, "| 2.50 | -17.000 ± 0.02 | -19.375 ± 0.02 | -19.1333 | +1.3 % | -20.7738 |"))
-      << text;
-  EXPECT_TRUE(contains(text, "| 2.50 | -23.000 ± 0.3 | -24.250 ± 0.3 | -32.4077 | +8.16 |")) << text;
-  EXPECT_TRUE(contains(text, "| 2.50 | | | -334.9547 | |")) << text;
-  EXPECT_FALSE(contains(text, "| 1.58 |"));
 }
 
 /// Every "name = number" of a text, as AVL's readers look for them.

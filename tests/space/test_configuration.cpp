@@ -82,7 +82,7 @@ Look look(const Mesh& mesh, const Kinds& kinds, const Case& settings) {
   const auto domain = distribute(mesh, comm, settings.mesh.scale);
   Look out;
   out.facts = survey(domain, kinds, settings, comm);
-  out.findings = judge(out.facts, domain.patch_names, settings);
+  out.findings = judge(out.facts, domain.patch_names, settings, settings.mesh.scale, settings.file);
   return out;
 }
 

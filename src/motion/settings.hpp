@@ -1,0 +1,25 @@
+// Which motion, and how it enters the equations.
+#pragma once
+
+#include <string>
+
+#include "core/types.hpp"
+#include "core/vec3.hpp"
+
+namespace alphadot {
+
+enum class MotionKind { none, plunge, sway, pitch, yaw, roll, flap, step_alpha, ramp_alpha, step_q, table };
+
+enum class TreatmentKind { field_velocity, rigid_grid, deforming_grid };
+
+struct MotionSettings {
+  MotionKind kind = MotionKind::none;
+  TreatmentKind treatment = TreatmentKind::field_velocity;
+  Real amplitude = 1;             ///< degrees of alpha, theta or phi; for step_q the reduced rate
+  Real reduced_frequency = 0.01;  ///< omega * length / (2 V)
+  Vec3 axis_point;                ///< rotations are about this point
+  std::string table_file;         ///< for kind = "table"
+  Vec3 rotation{};                ///< steady (p, q, r) * length / (2 V) at constant incidence, kind none only
+};
+
+}  // namespace alphadot

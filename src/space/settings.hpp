@@ -1,0 +1,26 @@
+// How the residual is discretized.
+#pragma once
+
+#include "core/types.hpp"
+#include "euler/kinds.hpp"
+
+namespace alphadot {
+
+enum class GradientKind { least_squares, green_gauss };
+
+enum class LimiterKind { venkatakrishnan, mlp_u2, barth_jespersen, none };
+
+struct SpaceSettings {
+  FluxKind flux = FluxKind::roe;
+  int order = 2;
+  GradientKind gradient = GradientKind::least_squares;
+  LimiterKind limiter = LimiterKind::venkatakrishnan;
+  /// Share of a cell's own density, speed of sound and pressure up to which changes pass the limiter.
+  Real limiter_threshold = 0.2;
+  /// Decades of residual after which the limiter is frozen; before, where the march stalls; 0: never. The
+  /// flow that it is frozen at depends on the way there, which one that came to rest does not.
+  Real freeze_orders = 16;
+  Real entropy_fix = 0.1;  ///< Harten's delta as a share of the spectral radius
+};
+
+}  // namespace alphadot
