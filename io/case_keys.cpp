@@ -36,6 +36,8 @@ class Table {
   std::string name_;
   Settings Case::*settings_;
 };
+template <class Settings>
+Table(std::vector<CaseKey>&, const char*, Settings FlightCondition::*) -> Table<Settings>;
 
 /// [boundary]: patch = "treatment", for any name of a patch.
 CaseKey boundary_key() {

@@ -182,7 +182,7 @@ bool has_shape(const Case& settings) {
 RunStatus adjoint_verb(const CaseArguments& arguments, const std::vector<std::string>& of,
                        const Communicator& comm) {
   const SignalListener signals;
-  FlowCase flow(arguments, "adjoint", comm);
+  FlowCase flow(load_case(arguments.case_file, arguments.overrides, comm), arguments, "adjoint", comm);
   check_scheme(flow.settings());
   const auto functionals = functionals_of(of, flow.settings());
   check_steady_restart(flow);

@@ -10,21 +10,23 @@
 #include <utility>
 
 #include "core/error.hpp"
-#include "io/toml_text.hpp"
 
 namespace alphadot {
 
 namespace {
 
-CaseArguments on_mesh(CaseArguments arguments, const FlowCase& finest, std::size_t number) {
-  arguments.folder = fmt::format("{}/mesh_{}", finest.folder(), number + 2);
-  arguments.stop_folder = finest.folder();
-  if (arguments.restart) arguments.restart = "";
-  for (const auto& change :
-       {"mesh.file=" + toml_string(finest.settings().derivatives.coarser_meshes[number]),
-        std::string("derivatives.coarser_meshes=[]"), std::string("derivatives.limiter_uncertainty=false")})
-    arguments.overrides.push_back(change);
-  return arguments;
+Case on_mesh(Case settings, std::size_t number) {
+  settings.mesh.file = settings.derivatives.coarser_meshes[number];
+  settings.derivatives.coarser_meshes.clear();
+  settings.derivatives.limiter_uncertainty = false;
+  return settings;
+}
+
+RunOptions below(RunOptions options, const FlowCase& finest, std::size_t number) {
+  options.folder = fmt::format("{}/mesh_{}", finest.folder(), number + 2);
+  options.stop_folder = finest.folder();
+  if (options.restart) options.restart = "";
+  return options;
 }
 
 /// Adds the errors with the key that they come from.
@@ -64,14 +66,15 @@ void check_is_coarser(const Setup& mesh, const Measures& found, const Measures& 
 
 }  // namespace
 
-std::vector<std::unique_ptr<FlowCase>> coarser_cases(const CaseArguments& arguments, const FlowCase& finest) {
+std::vector<std::unique_ptr<FlowCase>> coarser_cases(const RunOptions& options, const FlowCase& finest) {
   std::vector<std::unique_ptr<FlowCase>> out;
   std::vector<Problem> problems;
   const auto& comm = finest.communicator();
   auto finer = measures_of(finest.setup(), comm);
   const auto& files = finest.settings().derivatives.coarser_meshes;
   for (std::size_t i = 0; i < files.size(); ++i) try {
-      out.push_back(std::make_unique<FlowCase>(on_mesh(arguments, finest, i), "derivatives", comm));
+      out.push_back(std::make_unique<FlowCase>(on_mesh(finest.settings(), i), below(options, finest, i),
+                                               "derivatives", comm));
       const auto found = measures_of(out.back()->setup(), comm);
       check_is_coarser(finest.setup(), found, std::exchange(finer, found));
     } catch (const InputError& error) {

@@ -14,7 +14,7 @@ namespace alphadot {
 /// The cases of the key derivatives.coarser_meshes, in folders "mesh_2" and "mesh_3" below that of the
 /// finest, where a restart goes on as well. Collective. Throws InputError with every mesh that cannot be
 /// read, has other patches or other walls, or is not coarser than the one before; it names the key.
-std::vector<std::unique_ptr<FlowCase>> coarser_cases(const CaseArguments& arguments, const FlowCase& finest);
+std::vector<std::unique_ptr<FlowCase>> coarser_cases(const RunOptions& options, const FlowCase& finest);
 
 /// Looks for the same mistakes without setting anything up to compute. Collective.
 void check_coarser_meshes(const Setup& finest, const Communicator& comm);

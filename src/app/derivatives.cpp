@@ -204,7 +204,7 @@ std::optional<std::vector<MeshDerivatives>> complete_coarser(FlowCase& finest,
 
 RunStatus derivatives_verb(const CaseArguments& arguments, const Communicator& comm) {
   const SignalListener signals;
-  FlowCase flow(arguments, "derivatives", comm);
+  FlowCase flow(load_case(arguments.case_file, arguments.overrides, comm), arguments, "derivatives", comm);
   check_steady_restart(flow);
   auto levels = coarser_cases(arguments, flow);
   for (const auto& level : levels) check_steady_restart(*level);

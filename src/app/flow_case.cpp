@@ -42,17 +42,16 @@ std::unique_ptr<LinearSolver> make_linear_solver(const Discretization& discretiz
   return std::make_unique<Gmres>(discretization, comm, std::move(out), settings.krylov_directions);
 }
 
-std::string run_folder(const CaseArguments& arguments, const Case& settings) {
-  return arguments.folder.empty() ? settings.output.folder : arguments.folder;
+std::string run_folder(const RunOptions& options, const Case& settings) {
+  return options.folder.empty() ? settings.output.folder : options.folder;
 }
 
 /// The folder is made before the mesh is read, so that a run that cannot write ends at once.
-Setup prepare(const CaseArguments& arguments, const std::string& verb, std::unique_ptr<RunFolder>& folder,
-              const Communicator& comm) {
-  const Case settings = load_case(arguments.case_file, arguments.overrides, comm);
-  comm.on_root([&] { folder = std::make_unique<RunFolder>(run_folder(arguments, settings)); });
+Setup prepare(const Case& settings, const RunOptions& options, const std::string& verb,
+              std::unique_ptr<RunFolder>& folder, const Communicator& comm) {
+  comm.on_root([&] { folder = std::make_unique<RunFolder>(run_folder(options, settings)); });
   Setup out = load_setup(settings, comm);
-  comm.on_root([&] { folder->admit(out, verb, arguments.may_overwrite); });
+  comm.on_root([&] { folder->admit(out, verb, options.may_overwrite); });
   return out;
 }
 
@@ -96,14 +95,15 @@ NamedValues named(const Coefficients& coefficients) {
   return out;
 }
 
-FlowCase::FlowCase(const CaseArguments& arguments, std::string verb, const Communicator& comm)
+FlowCase::FlowCase(const Case& settings, const RunOptions& options, std::string verb,
+                   const Communicator& comm)
     : comm_(comm),
       verb_(std::move(verb)),
-      setup_(prepare(arguments, verb_, run_folder_, comm)),
-      folder_(run_folder(arguments, setup_.settings)),
+      setup_(prepare(settings, options, verb_, run_folder_, comm)),
+      folder_(run_folder(options, setup_.settings)),
       holds_result_(comm.any(run_folder_ && run_folder_->holds_result())),
       origin_(history_info(setup_.settings, setup_.mesh.hash).origin()),
-      checkpoints_(setup_, folder_, arguments.stop_folder.empty() ? folder_ : arguments.stop_folder, timer_,
+      checkpoints_(setup_, folder_, options.stop_folder.empty() ? folder_ : options.stop_folder, timer_,
                    comm),
       progress_(setup_.settings, origin_, folder_, comm.is_root()),
       discretization_(setup_.domain, setup_.patch_kinds, setup_.settings.space,
@@ -125,7 +125,7 @@ FlowCase::FlowCase(const CaseArguments& arguments, std::string verb, const Commu
   for (const auto& warning : setup_.warnings) spdlog::warn("{}", warning);
   if (!excluded.empty()) spdlog::info("left out of the forces: {}", fmt::join(excluded, ", "));
   iteration_.take_along(checkpoints_.reduction());
-  if (arguments.restart) checkpoints_.begin_from(*arguments.restart);
+  if (options.restart) checkpoints_.begin_from(*options.restart);
   if (run_folder_ && run_folder_->holds_other()) checkpoints_.leave_others_alone();
 }
 

@@ -23,9 +23,9 @@ namespace alphadot {
 /// Mesh, solver and steady flow of one case on this rank.
 class FlowCase {
  public:
-  /// Reads case and mesh, makes and locks the run's folder, chooses the checkpoint to begin from. Collective.
+  /// Makes and locks the run's folder, reads the mesh, chooses the checkpoint to begin from. Collective.
   /// Throws InputError on every rank.
-  FlowCase(const CaseArguments& arguments, std::string verb, const Communicator& comm);
+  FlowCase(const Case& settings, const RunOptions& options, std::string verb, const Communicator& comm);
 
   const Case& settings() const { return setup_.settings; }
   const Setup& setup() const { return setup_; }

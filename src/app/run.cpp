@@ -142,7 +142,7 @@ void judge_steps(FlowCase& flow, const History& history) {
 
 RunStatus run_verb(const CaseArguments& arguments, const Communicator& comm) {
   const SignalListener signals;
-  FlowCase flow(arguments, "run", comm);
+  FlowCase flow(load_case(arguments.case_file, arguments.overrides, comm), arguments, "run", comm);
   flow.announce();
   const Setup& setup = flow.setup();
   History history(history_info(setup.settings, setup.mesh.hash, setup.motion_table_hash));

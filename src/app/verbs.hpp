@@ -11,14 +11,18 @@
 
 namespace alphadot {
 
-struct CaseArguments {
-  std::string case_file;
-  std::vector<std::string> overrides;  ///< "key=value"
-  std::string folder;                  ///< of the run; empty: as the case says
-  std::string stop_folder;             ///< where a file "stop" ends it; empty: in its folder
-  bool may_overwrite = false;          ///< results of another flow or verb in the folder
+/// Where a run keeps its files and what it begins from.
+struct RunOptions {
+  std::string folder;          ///< of the run; empty: as the case says
+  std::string stop_folder;     ///< where a file "stop" ends it; empty: in its folder
+  bool may_overwrite = false;  ///< results of another flow or verb in the folder
   /// Go on from this checkpoint; empty: from the newest of the run's folder.
   std::optional<std::string> restart;
+};
+
+struct CaseArguments : RunOptions {
+  std::string case_file;
+  std::vector<std::string> overrides;  ///< "key=value"
 };
 
 struct PartitionArguments {

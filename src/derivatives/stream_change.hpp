@@ -23,7 +23,7 @@ inline const StreamNumber stream_numbers[] = {{"mach", &FreestreamSettings::mach
 class StreamChange {
  public:
   /// About the flow of `iteration`, in the case `settings`. Collective.
-  StreamChange(ImplicitIteration& iteration, const Case& settings, const StreamNumber& number);
+  StreamChange(ImplicitIteration& iteration, const FlightCondition& settings, const StreamNumber& number);
 
   const std::string& name() const { return name_; }
   /// [owned_cells]
@@ -33,7 +33,7 @@ class StreamChange {
 
  private:
   struct Side {
-    Case settings;
+    FlightCondition settings;
     std::vector<Load> loads;  ///< of every patch, over all ranks
   };
 
