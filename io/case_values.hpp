@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "io/case.hpp"
 #include "io/case_keys.hpp"
 #include "io/case_words.hpp"
 #include "io/suggestion.hpp"

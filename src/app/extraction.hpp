@@ -7,6 +7,7 @@
 
 #include "analysis/derivatives.hpp"
 #include "io/history.hpp"
+#include "motion/settings.hpp"
 
 namespace alphadot {
 

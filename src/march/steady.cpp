@@ -1,4 +1,5 @@
 #include "march/steady.hpp"
+#include "march/settings.hpp"
 
 #include <algorithm>
 #include <cmath>

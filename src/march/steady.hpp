@@ -5,6 +5,7 @@
 
 #include "core/run_status.hpp"
 #include "march/implicit_iteration.hpp"
+#include "march/settings.hpp"
 
 namespace alphadot {
 

@@ -17,6 +17,7 @@
 #include "bench/machine.hpp"
 #include "core/error.hpp"
 #include "core/timer.hpp"
+#include "io/case.hpp"
 #include "io/case_file.hpp"
 #include "io/mesh_reader.hpp"
 #include "io/partitioned_mesh.hpp"

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "core/dual.hpp"
+#include "euler/kinds.hpp"
 #include "samples.hpp"
 
 namespace alphadot {

@@ -7,6 +7,7 @@
 // updates.
 #include <gtest/gtest.h>
 
+#include "euler/kinds.hpp"
 #include "samples.hpp"
 
 namespace alphadot {

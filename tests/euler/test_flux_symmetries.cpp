@@ -2,6 +2,7 @@
 // change of frame and scale, and upwinding. All exact; tolerances are round-off of the largest entry.
 #include <gtest/gtest.h>
 
+#include "euler/kinds.hpp"
 #include "samples.hpp"
 
 namespace alphadot {

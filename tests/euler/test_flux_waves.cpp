@@ -1,6 +1,7 @@
 // Single waves through a face, against exact solutions of the Riemann problem.
 #include <gtest/gtest.h>
 
+#include "euler/kinds.hpp"
 #include "exact_riemann.hpp"
 #include "samples.hpp"
 

@@ -12,9 +12,14 @@
 #include <random>
 
 #include "core/error.hpp"
+#include "euler/kinds.hpp"
+#include "io/case.hpp"
 #include "io/case_keys.hpp"
 #include "io/case_words.hpp"
 #include "io/suggestion.hpp"
+#include "march/settings.hpp"
+#include "motion/settings.hpp"
+#include "space/settings.hpp"
 #include "support/counted_memory.hpp"
 
 namespace alphadot {

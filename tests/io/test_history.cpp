@@ -12,6 +12,7 @@
 #include "core/error.hpp"
 #include "io/case_file.hpp"
 #include "io/temporary_folder.hpp"
+#include "motion/settings.hpp"
 
 namespace alphadot {
 namespace {
