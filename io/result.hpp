@@ -95,6 +95,11 @@ struct Result {
 /// The result as JSON text. What is not finite becomes null.
 std::string result_json(const Result& result);
 
+/// Reads back what derivatives need: status, message, title, verb, mesh file and hash, reference,
+/// free stream, forces of the whole, derivatives without mesh_convergence, uncertainty, version. The rest has
+/// its defaults. Not collective: for one rank. Throws InputError when the file is cut, or not a result.
+Result read_result(const std::string& path);
+
 /// Writes it as `path` through a temporary file. For one rank; throws InputError.
 void write_result(const std::string& path, const Result& result);
 

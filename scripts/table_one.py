@@ -13,8 +13,7 @@ import csv
 import json
 import math
 import sys
-from collections.abc import Callable, Iterable
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
 
 try:
@@ -26,6 +25,10 @@ except ImportError as error:
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 
+from sweep.derive import Derivatives, Runs
+from sweep.plan import SweepError
+from sweep.runner import find_program
+
 REFERENCE = Path(__file__).resolve().parents[1] / "cases" / "basic_finner" / "reference"
 FREE_FLIGHT_CENTER = 5.5  # d from the nose: DREV-TM-9703, ARL-TR-6725
 SZNAJDER_CENTER = 6.1
@@ -35,34 +38,6 @@ CM_ALPHA, CM_ALPHADOT, CM_Q = r"$C_{m\alpha}$", r"$C_{m\dot\alpha}$", r"$C_{mq}$
 Row = dict[str, str]
 
 
-@dataclass(frozen=True)
-class Derivatives:
-    """Of one run, per radian, about a centre at x = center (in reference lengths from the nose); NaN where the run gives none."""
-
-    mach: float
-    method: str
-    center: float
-    CN_alpha: float
-    Cm_alpha: float
-    CN_alphadot: float
-    Cm_alphadot: float
-    CN_q: float
-    Cm_q: float
-
-    def about(self, center: float) -> Derivatives:
-        """The same about another centre; a rate q about it moves the old one up and down."""
-        dx = center - self.center
-        static = self.Cm_alpha + dx * self.CN_alpha
-        return replace(
-            self,
-            center=center,
-            Cm_alpha=static,
-            Cm_alphadot=self.Cm_alphadot + dx * self.CN_alphadot,
-            CN_q=self.CN_q - 2 * dx * self.CN_alpha,
-            Cm_q=self.Cm_q + dx * self.CN_q - 2 * dx * static,
-        )
-
-
 def read_result(folder: Path) -> dict:
     """The result.json of a run that came to its end."""
     path = folder / "result.json"
@@ -70,17 +45,6 @@ def read_result(folder: Path) -> dict:
     if result["status"] not in ("converged", "completed"):
         sys.exit(f"table_one.py: {path}: the run ended as '{result['status']}': {result['message']}")
     return result
-
-
-def derivatives_of(result: dict) -> Derivatives:
-    found, reference = result["derivatives"], result["reference"]
-    names = ("CN_alpha", "Cm_alpha", "CN_alphadot", "Cm_alphadot", "CN_q", "Cm_q")
-    return Derivatives(
-        mach=result["freestream"]["mach"],
-        method=found["Cm_alphadot"]["method"],
-        center=reference["moment_center"][0] / reference["length"],
-        **{name: found[name]["value"] if name in found else math.nan for name in names},
-    )
 
 
 def read_table(name: str, keep: Callable[[Row], bool] = lambda row: True) -> list[Row]:
@@ -93,11 +57,12 @@ def column(rows: Iterable[Row], name: str) -> np.ndarray:
     return np.array([float(row[name]) for row in rows])
 
 
-def fitted_center(sweep: list[Derivatives], static: np.ndarray) -> float:
-    """The one centre that brings Cm_alpha nearest to `static` (n,): least squares on the relative misfit, a linear problem."""
-    start = sweep[0].center
-    slope = np.array([run.CN_alpha for run in sweep]) / static
-    wanted = 1.0 - np.array([run.about(start).Cm_alpha for run in sweep]) / static
+def fitted_center(runs: Runs, of: Sequence[int], static: np.ndarray) -> float:
+    """The one centre that brings Cm_alpha of the runs with the numbers `of` nearest to `static` (n,): least squares on the relative
+    misfit. Cm_alpha is linear in the centre: two centres tell the rest."""
+    start = runs.here[of[0]].center
+    first, second = (np.array([runs.about(at)[index].Cm_alpha for index in of]) / static for at in (start, start + 1.0))
+    slope, wanted = second - first, 1.0 - first
     return start + float(slope @ wanted / (slope @ slope))
 
 
@@ -115,9 +80,9 @@ def uncertainty_of(results: Iterable[dict]) -> str:
     return "; ".join(dict.fromkeys(result.get("uncertainty") or "not known" for result in results))
 
 
-def table(runs: list[Derivatives], paper: dict[float, Row], center: float, reference: dict, uncertainty: str) -> str:
-    """The comparison as text: `runs` about 5.5 d, then about the fitted centre beside the paper's values."""
-    width = max(len(run.method) for run in runs)
+def table(plain: list[Derivatives], fitted: list[Derivatives], paper: dict[float, Row], reference: dict, uncertainty: str) -> str:
+    """The comparison as text: runs about 5.5 d, then about the fitted centre beside the paper's values."""
+    width, center = max(len(run.method) for run in plain), fitted[0].center
     head = f"  Mach  {'method':<{width}}"
     start = lambda run: f"  {run.mach:4.2f}  {run.method:<{width}}"
     lines = [
@@ -133,10 +98,10 @@ def table(runs: list[Derivatives], paper: dict[float, Row], center: float, refer
         f"About {FREE_FLIGHT_CENTER} d, the centre of the free-flight data",
         f"{head}  CN_alpha  Cm_alpha  CN_alphadot  Cm_alphadot     Cm_q",
     ]
-    for run in (run.about(FREE_FLIGHT_CENTER) for run in runs):
+    for run in plain:
         acceleration = f"{run.CN_alphadot:11.2f}  {run.Cm_alphadot:11.2f}"
         lines.append(f"{start(run)}  {run.CN_alpha:8.3f}  {run.Cm_alpha:8.3f}  {acceleration}  {number(run.Cm_q)}")
-    beside = [(run.about(center), {name: float(value) for name, value in paper[run.mach].items()}) for run in runs]
+    beside = [(run, {name: float(value) for name, value in paper[run.mach].items()}) for run in fitted]
     columns = f"{head}      here  paper: field      grid"
     values = lambda run, name, row, key: (
         f"{start(run)}  {getattr(run, name):8.2f}  {row[key + '_field']:12.2f}  {row[key + '_grid']:8.2f}"
@@ -158,33 +123,31 @@ def table(runs: list[Derivatives], paper: dict[float, Row], center: float, refer
     return "\n".join(lines) + "\n"
 
 
-def draw_loop(folder: Path, result: dict, center: float, picture: Path) -> None:
-    """Fig. 4: Cm against alpha about `center`, and what is left without the static part, where the loop can be seen."""
-    here = derivatives_of(result)
-    run, dx = here.about(center), center - here.center
+def draw_loop(folder: Path, steady: Derivatives, steps: Derivatives, picture: Path) -> None:
+    """Fig. 4: Cm against alpha, and what is left without the static part, where the loop can be seen; from what the folder's
+    result.json and history.h5 say about one centre."""
     with open(folder / "history.csv") as file:
         rows = list(csv.DictReader(line for line in file if not line.startswith("#")))
     with h5py.File(folder / "history.h5") as history:
         k, mean, amplitude = (float(history.attrs[name]) for name in ("reduced_frequency", "alpha", "amplitude"))
     alpha = np.degrees(column(rows, "alpha"))
-    cm = column(rows, "total/Cm") + dx * column(rows, "total/CN")
+    cm = np.array(steps.Cm)
     fitted = column(rows, "t_star") > math.pi / k - 1e-6  # the fit leaves out the first half cycle
 
-    steady = result["forces"]["Cm"] + dx * result["forces"]["CN"]
-    static = lambda degrees: steady + run.Cm_alpha * np.radians(degrees - mean)
+    static = lambda degrees: steady.Cm[0] + steady.Cm_alpha * np.radians(degrees - mean)
     rest = cm - static(alpha)
     phase = np.linspace(0.0, 2.0 * math.pi, 361)
     swept = mean + amplitude * np.sin(phase)
     # Cm is a little quadratic in alpha: the mean of the cycle is not the steady value.
-    ellipse = np.mean(rest[fitted]) + run.Cm_alphadot * math.radians(amplitude) * k * np.cos(phase)
+    ellipse = np.mean(rest[fitted]) + steady.Cm_alphadot * math.radians(amplitude) * k * np.cos(phase)
 
     figure, (left, right) = plt.subplots(1, 2, figsize=(11, 4.8), layout="constrained")
     for axes, points, line, loop in (
         (left, cm, static(swept), static(swept) + ellipse),
         (right, 1e3 * rest, 0.0 * swept, 1e3 * ellipse),
     ):
-        axes.plot(swept[90:271], line[90:271], color=MEASURED, lw=1.0, ls="--", label=f"static line, {CM_ALPHA} = {run.Cm_alpha:.2f}")
-        axes.plot(swept, loop, color=PAPER, lw=1.6, label=f"ellipse, {CM_ALPHADOT} = {run.Cm_alphadot:.2f}")
+        axes.plot(swept[90:271], line[90:271], color=MEASURED, lw=1.0, ls="--", label=f"static line, {CM_ALPHA} = {steady.Cm_alpha:.2f}")
+        axes.plot(swept, loop, color=PAPER, lw=1.6, label=f"ellipse, {CM_ALPHADOT} = {steady.Cm_alphadot:.2f}")
         axes.plot(alpha[~fitted], points[~fitted], "o", ms=4, mfc="none", color=HERE, label="computed, first half cycle")
         axes.plot(alpha[fitted], points[fitted], "o", ms=4, color=HERE, label="computed, the cycle that is fitted")
         axes.set_xlabel("angle of attack α, deg")
@@ -192,21 +155,21 @@ def draw_loop(folder: Path, result: dict, center: float, picture: Path) -> None:
     for at in (0, 180):
         ends = [(swept[i], 1e3 * ellipse[i]) for i in (at + 12, at)]
         right.annotate("", *ends, arrowprops={"arrowstyle": "-|>", "color": PAPER, "mutation_scale": 18})
-    left.set_ylabel(f"Cm about x = {center:.3f} d from the nose, nose up +")
+    left.set_ylabel(f"Cm about x = {steady.center:.3f} d from the nose, nose up +")
     left.set_title("The loop (the paper's Fig. 4)", fontsize=11)
     left.legend(fontsize=9)
     right.set_ylabel("10³ × (Cm − static line)")
     right.set_title(rf"Without its static part: area = $\pi\, k\, \alpha_m^2$ {CM_ALPHADOT}", fontsize=11)
     figure.suptitle(
-        f"Basic Finner, plunge at Mach {run.mach:g}: α = {mean:g}° + {amplitude:g}° sin(k t*), k = ωd/2V = {k:g}\n"
+        f"Basic Finner, plunge at Mach {steady.mach:g}: α = {mean:g}° + {amplitude:g}° sin(k t*), k = ωd/2V = {k:g}\n"
         "length d, area πd²/4; derivatives per rad, α̇ times d/2V",
         fontsize=11,
     )
     figure.savefig(picture, dpi=110)
 
 
-def draw_mach(sweep: list[Derivatives], paper: list[Row], center: float, picture: Path) -> None:
-    """Fig. 5: derivatives against Mach number; ours about the centre of each set of published values."""
+def draw_mach(runs: Runs, of: slice, paper: list[Row], center: float, picture: Path) -> None:
+    """Fig. 5: derivatives of the runs `of` against Mach number; ours about the centre of each set of published values."""
     in_range = lambda row: 1.5 <= float(row["Mach"]) <= 2.75
     flight = read_table("finner_free_flight_DREV_TM_9703.csv", lambda row: in_range(row) and row["flag"] == "ok")
     rans = read_table("finner_rans_ARL_TR_6725.csv", lambda row: in_range(row) and row["method"] == "planar_pitching")
@@ -214,7 +177,8 @@ def draw_mach(sweep: list[Derivatives], paper: list[Row], center: float, picture
 
     def ours(axes: plt.Axes, names: tuple[str, ...], *also_about: float) -> None:
         for x, style in zip((center, FREE_FLIGHT_CENTER, *also_about), ("o-", "o--", "o:")):
-            values = [sum(getattr(run.about(x), name) for name in names) for run in sweep]
+            sweep = runs.about(x)[of]
+            values = [sum(getattr(run, name) for name in names) for run in sweep]
             label = f"alphadot, about {x:.2f} d" + (" (fitted)" if x == center else "")
             axes.plot([run.mach for run in sweep], values, style, color=HERE, lw=1.6, ms=4, label=label)
 
@@ -258,21 +222,30 @@ def draw_mach(sweep: list[Derivatives], paper: list[Row], center: float, picture
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("folder", type=Path, help="folder of scripts/demo.sh, with the runs plunge and mach_*")
-    folder = parser.parse_args().folder
-    plunge = read_result(folder / "plunge")
-    results = [read_result(path.parent) for path in folder.glob("mach_*/result.json")]
-    sweep = [derivatives_of(result) for result in results]
-    sweep.sort(key=lambda run: run.mach)
+    parser.add_argument("--program", metavar="FILE", help="the program (default: $ALPHADOT, build/alphadot, or on the PATH)")
+    arguments = parser.parse_args()
+    folder, plunge = arguments.folder, arguments.folder / "plunge"
+    results = {path.parent: read_result(path.parent) for path in folder.glob("mach_*/result.json")}
+    mach_of = lambda run: results[run]["freestream"]["mach"]
+    sweep = sorted(results, key=mach_of)
     rows = read_table("paper_table1.csv")
     paper = {float(row["mach"]): row for row in rows}
-    if [run.mach for run in sweep] != list(paper):
-        parser.error(f"{folder}/mach_* hold Mach {[run.mach for run in sweep]}, wanted are the paper's {list(paper)}")
+    if list(map(mach_of, sweep)) != list(paper):
+        parser.error(f"{folder}/mach_* hold Mach {list(map(mach_of, sweep))}, wanted are the paper's {list(paper)}")
+    results[plunge] = read_result(plunge)
 
-    center = fitted_center(sweep, column(rows, "static_field"))
-    text = table([*sweep, derivatives_of(plunge)], paper, center, plunge["reference"], uncertainty_of([*results, plunge]))
-    (folder / "table_one.txt").write_text(text)
-    draw_loop(folder / "plunge", plunge, center, folder / "loop.png")
-    draw_mach(sweep, rows, center, folder / "mach.png")
+    try:
+        files = [*(run / "result.json" for run in [*sweep, plunge]), plunge / "history.h5"]
+        runs = Runs(find_program(arguments.program), files)
+        center = fitted_center(runs, range(len(sweep)), column(rows, "static_field"))
+        *plain, _ = runs.about(FREE_FLIGHT_CENTER)
+        *fitted, steps = runs.about(center)
+        text = table(plain, fitted, paper, results[plunge]["reference"], uncertainty_of(results.values()))
+        (folder / "table_one.txt").write_text(text)
+        draw_loop(plunge, fitted[-1], steps, folder / "loop.png")
+        draw_mach(runs, slice(len(sweep)), rows, center, folder / "mach.png")
+    except SweepError as error:
+        sys.exit(f"table_one.py: {error}")
     print(text)
     print(f"Table:                                         {folder}/table_one.txt")
     print(f"Loop of Cm against alpha, the paper's Fig. 4:  {folder}/loop.png")

@@ -64,7 +64,7 @@ def report(sweep: Sweep, arguments: Namespace) -> int:
         from sweep.report import write_report
     except ImportError as error:
         raise SweepError(f"{error}; run scripts/install.sh, and sweep.py with /usr/bin/python3") from None
-    print(f"report: {write_report(sweep)}")
+    print(f"report: {write_report(sweep, find_program(arguments.program))}")
     return 0
 
 

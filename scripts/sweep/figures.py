@@ -17,6 +17,7 @@ import h5py
 import matplotlib.pyplot as plt
 import numpy as np
 
+from sweep.derive import Derivatives, Runs
 from sweep.results import Entry, Results, finite
 from sweep.tables import method_label
 from table_one import FREE_FLIGHT_CENTER, HERE, MEASURED, OTHER, PAPER, SZNAJDER_CENTER, Row, column
@@ -81,7 +82,7 @@ def mach_figures(results: Results, folder: Path) -> list[Picture]:
 
 
 def draw_quantity(results: Results, quantity: Quantity, folder: Path) -> Picture:
-    own = results.with_derivatives[0].here.center
+    own = results.here(results.with_derivatives[0]).center
     if results.published:
         centers = ([results.center] if quantity.fitted and results.center else []) + list(quantity.centers)
     else:
@@ -92,7 +93,7 @@ def draw_quantity(results: Results, quantity: Quantity, folder: Path) -> Picture
         # Runs in time are few, and stand beside the line of the first centre only.
         for center, style in zip(centers[: 1 if entries[0].run.is_motion else None], ("-", "--", ":")):
             label = ", ".join([*series_label(entries[0], results), *center_label(quantity, center, results)])
-            draw_series(axes, entries, quantity, center, style, color, label)
+            draw_series(axes, results, entries, quantity, center, style, color, label)
     if results.published:
         draw_published(axes, results, quantity)
     if axes.get_ylim()[0] < 0 < axes.get_ylim()[1]:
@@ -118,11 +119,12 @@ def center_label(quantity: Quantity, center: float, results: Results) -> list[st
 
 
 def draw_series(
-    axes: plt.Axes, entries: list[Entry], quantity: Quantity, center: float, style: str, color: str, label: str
+    axes: plt.Axes, results: Results, entries: list[Entry], quantity: Quantity, center: float, style: str, color: str, label: str
 ) -> None:
     """A line with bars of uncertainty; of runs in time the marks alone."""
-    values = [sum(getattr(entry.here.about(center), term) for term in quantity.terms) for entry in entries]
-    errors = [sum(entry.uncertainty(term, center) for term in quantity.terms) for entry in entries]
+    found = [results.about(entry, center) for entry in entries]
+    values = [sum(getattr(run, term) for term in quantity.terms) for run in found]
+    errors = [sum(run.uncertainty.get(term, 0.0) for term in quantity.terms) for run in found]
     keep = [index for index, value in enumerate(values) if finite(value)]
     if keep:
         pick = lambda items: [items[index] for index in keep]
@@ -187,25 +189,29 @@ def loop_figures(results: Results, folder: Path) -> list[Picture]:
     for entry in results.with_derivatives:
         history = read_columns(entry.run.folder / HISTORY)
         if entry.run.method == "plunge" and "total/Cm" in history:
-            pictures += draw_loop(entry, history, results.center or entry.here.center, folder)
+            center = results.center or results.here(entry).center
+            steps = Runs(results.program, [entry.run.folder / "history.h5"]).about(center)[0]
+            pictures += draw_loop(entry, history, results.about(entry, center), steps, folder)
     return pictures
 
 
-def draw_loop(entry: Entry, history: dict[str, np.ndarray], center: float, folder: Path) -> list[Picture]:
-    """The loop of Cm against alpha about `center`, and the same without its static part, where it can be seen.
+def draw_loop(
+    entry: Entry, history: dict[str, np.ndarray], here: Derivatives, steps: Derivatives, folder: Path
+) -> list[Picture]:
+    """The loop of Cm against alpha, and the same without its static part, where it can be seen; `here` and `steps` are from the
+    result.json and the history.h5 of the run, about one centre.
 
     The static part is a parabola: the line that the derivative gives, and mean and curvature fitted to what the ellipse leaves.
     """
     with h5py.File(entry.run.folder / "history.h5") as file:
         k, mean, amplitude = (float(file.attrs[name]) for name in ("reduced_frequency", "alpha", "amplitude"))
-    here, forces, dx = entry.here.about(center), entry.result["forces"], center - entry.here.center
     alpha = np.degrees(history["alpha"])
-    cm = history["total/Cm"] + dx * history["total/CN"]
+    cm = np.array(steps.Cm)
     fitted = history["t_star"] > math.pi / k - 1e-6  # the fit leaves out the first half cycle
     phase = np.linspace(0.0, 2.0 * math.pi, 361)
     swept = mean + amplitude * np.sin(phase)
     opening = lambda angle: here.Cm_alphadot * math.radians(amplitude) * k * np.cos(angle)
-    line = lambda degrees: forces["Cm"] + dx * forces["CN"] + here.Cm_alpha * np.radians(degrees - mean)
+    line = lambda degrees: here.Cm[0] + here.Cm_alpha * np.radians(degrees - mean)
     left = cm - line(alpha) - opening(k * history["t_star"])
     columns = np.stack([np.ones_like(alpha), (alpha - mean) ** 2], axis=1)
     offset, curvature = np.linalg.lstsq(columns[fitted], left[fitted], rcond=None)[0]
@@ -213,7 +219,7 @@ def draw_loop(entry: Entry, history: dict[str, np.ndarray], center: float, folde
     rest, ellipse = cm - static(alpha), opening(phase)
     pictures = []
     for name, scale, base_at, base_curve, ylabel, title in (
-        ("loop", 1.0, static(alpha), static(swept), f"Cm about {center:.3f} d, nose up +", "Cm against alpha"),
+        ("loop", 1.0, static(alpha), static(swept), f"Cm about {here.center:.3f} d, nose up +", "Cm against alpha"),
         ("loop_open", 1e3, 0.0 * alpha, 0.0 * swept, "10³ × (Cm − static part)", "without its static part"),
     ):
         figure, axes = panel("angle of attack α, deg", ylabel)

@@ -17,9 +17,9 @@ from sweep.text import duration
 from table_one import FREE_FLIGHT_CENTER, SZNAJDER_CENTER
 
 
-def write_report(sweep: Sweep) -> Path:
-    """Writes report.html of what is done. Raises SweepError when nothing is."""
-    results = Results.of(sweep)
+def write_report(sweep: Sweep, program: Path) -> Path:
+    """Writes report.html of what is done; the program moves derivatives to other centres. Raises SweepError when nothing is done."""
+    results = Results.of(sweep, program)
     if not results.entries:
         raise SweepError(f"no run in {sweep.folder} is done: there is nothing to report; see sweep.py status")
     folder = sweep.folder / "report"
@@ -59,7 +59,7 @@ def headline(results: Results) -> list[tuple[str, str]]:
     out = []
     if results.beside_paper:
         paper, center = results.published.paper, results.center
-        pairs = [(entry.here.about(center), {k: float(v) for k, v in paper[entry.mach].items()}) for entry in results.beside_paper]
+        pairs = [(results.about(entry, center), {k: float(v) for k, v in paper[entry.mach].items()}) for entry in results.beside_paper]
         static = max(abs(relative(here.Cm_alpha, row["static_field"])) for here, row in pairs)
         out.append((f"{static:.1f} %", f"largest difference of Cm_alpha from the paper, about the fitted centre {center:.2f} d"))
         acceleration = max(abs(here.Cm_alphadot - row["acceleration_field"]) for here, row in pairs)

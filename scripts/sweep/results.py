@@ -5,14 +5,16 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import cached_property
+from pathlib import Path
 
 import numpy as np
 
 import table_one
+from sweep.derive import Derivatives, Runs
 from sweep.plan import Run, Sweep
 from sweep.state import RESULT, Phase, State, read_json
 from sweep.status import states
-from table_one import Derivatives, Row, column, derivatives_of, fitted_center
+from table_one import Row, column, fitted_center
 
 
 @dataclass(frozen=True)
@@ -41,26 +43,10 @@ class Entry:
         """Its name, with a mark that nobody overlooks where it is not converged."""
         return self.run.name if self.converged else f"{self.run.name} (not converged)"
 
-    @cached_property
-    def here(self) -> Derivatives:
-        return derivatives_of(self.result)
-
     @property
     def series(self) -> tuple[str, str, float]:
         """What it has in common with those that make a line over Mach number with it."""
         return (self.run.label, self.run.mesh, self.run.alpha)
-
-    def uncertainty(self, name: str, center: float) -> float:
-        """Bound on the uncertainty of a derivative about another centre: that of the moment and of what is moved with it."""
-        own = lambda key: self.result["derivatives"].get(key, {}).get("uncertainty") or 0.0
-        dx = abs(center - self.here.center)
-        carried = {
-            "Cm_alpha": [(dx, "CN_alpha")],
-            "Cm_alphadot": [(dx, "CN_alphadot")],
-            "CN_q": [(2 * dx, "CN_alpha")],
-            "Cm_q": [(dx, "CN_q"), (2 * dx, "Cm_alpha"), (2 * dx * dx, "CN_alpha")],
-        }
-        return own(name) + sum(factor * own(key) for factor, key in carried.get(name, []))
 
 
 @dataclass(frozen=True)
@@ -92,22 +78,36 @@ class Results:
     """All that a report is made of."""
 
     sweep: Sweep
+    program: Path
     entries: list[Entry]
     unfinished: list[tuple[Run, State]]
     published: Published | None
 
     @staticmethod
-    def of(sweep: Sweep) -> Results:
+    def of(sweep: Sweep, program: Path) -> Results:
         found = states(sweep)
         ended = (Phase.DONE, Phase.SHORT)
         entries = [Entry(run, state, read_json(run.folder / RESULT)) for run, state in found if state.phase in ended]
         entries.sort(key=lambda entry: (entry.converged, entry.series, entry.mach))
         unfinished = [(run, state) for run, state in found if state.phase not in ended]
-        return Results(sweep, entries, unfinished, Published.of(sweep))
+        return Results(sweep, program, entries, unfinished, Published.of(sweep))
 
     @cached_property
     def with_derivatives(self) -> list[Entry]:
         return [entry for entry in self.entries if entry.has_derivatives]
+
+    @cached_property
+    def derived(self) -> Runs:
+        """What the program says about those with derivatives, in their order. Raises SweepError."""
+        return Runs(self.program, [entry.run.folder / RESULT for entry in self.with_derivatives])
+
+    def about(self, entry: Entry, center: float) -> Derivatives:
+        """Of an entry with derivatives, about a centre in reference lengths from the nose."""
+        return self.derived.about(center)[self.with_derivatives.index(entry)]
+
+    def here(self, entry: Entry) -> Derivatives:
+        """The same about the centre of the run."""
+        return self.derived.here[self.with_derivatives.index(entry)]
 
     @cached_property
     def uncertainty(self) -> str:
@@ -141,7 +141,7 @@ class Results:
             groups.setdefault(entry.series, []).append(entry)
         best = max(groups.values(), key=rank)
         static = column([self.published.paper[entry.mach] for entry in best], "static_field")
-        return fitted_center([entry.here for entry in best], static)
+        return fitted_center(self.derived, [self.with_derivatives.index(entry) for entry in best], static)
 
 
 def finite(value: float | None) -> bool:

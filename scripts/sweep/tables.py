@@ -82,7 +82,7 @@ def table_one_tables(results: Results) -> list[Table]:
         rows = []
         for entry in results.beside_paper:
             row = {k: float(v) for k, v in paper[entry.mach].items()}
-            plain, fitted = (getattr(entry.here.about(x), name) for x in (FREE_FLIGHT_CENTER, center))
+            plain, fitted = (getattr(results.about(entry, x), name) for x in (FREE_FLIGHT_CENTER, center))
             if not finite(plain):
                 continue
             compare = relative if kind == "%" else (lambda value, of: value - of)
@@ -106,7 +106,7 @@ def derivative_table(results: Results) -> Table:
     rows = []
     for entry in results.with_derivatives:
         found = entry.result["derivatives"]
-        cells: list[Cell] = [entry.label, entry.mach, entry.run.alpha, entry.here.center]
+        cells: list[Cell] = [entry.label, entry.mach, entry.run.alpha, results.here(entry).center]
         for name in names:
             cells += [found[name]["value"], found[name]["uncertainty"]] if name in found else [None, None]
         rows.append(cells)

@@ -8,7 +8,7 @@
 #include <span>
 
 #include "analysis/axes.hpp"
-#include "analysis/moment_center.hpp"
+#include "analysis/static_margin.hpp"
 
 namespace alphadot {
 

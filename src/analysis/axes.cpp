@@ -28,10 +28,4 @@ DerivativeSet to_stability_axes(const DerivativeSet& body, const Coefficients& s
   return out;
 }
 
-WindForces wind_forces(const Coefficients& body, Real alpha, Real beta) {
-  const Coefficients stability = to_stability_axes(body, alpha);
-  const Real drag = stability.CA, c = std::cos(beta), s = std::sin(beta);
-  return {.CD = c * drag - s * body.CY, .CC = c * body.CY + s * drag, .CL = stability.CN};
-}
-
 }  // namespace alphadot

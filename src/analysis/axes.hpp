@@ -39,10 +39,4 @@ CoefficientsOf<T> to_stability_axes(const CoefficientsOf<T>& body, Real alpha) {
 /// and only one of p and r is known.
 DerivativeSet to_stability_axes(const DerivativeSet& body, const Coefficients& steady, Real alpha);
 
-/// Forces along the relative wind (CD), to starboard across it (CC) and up across it (CL); angles in rad.
-struct WindForces {
-  Real CD = 0, CC = 0, CL = 0;
-};
-WindForces wind_forces(const Coefficients& body, Real alpha, Real beta);
-
 }  // namespace alphadot

@@ -4,7 +4,7 @@
 
 #include <array>
 
-#include "analysis/moment_center.hpp"
+#include "analysis/static_margin.hpp"
 
 namespace alphadot {
 

@@ -13,7 +13,7 @@
 #include "analysis/avl.hpp"
 #include "analysis/axes.hpp"
 #include "analysis/jsbsim.hpp"
-#include "analysis/moment_center.hpp"
+#include "analysis/static_margin.hpp"
 #include "analysis/table.hpp"
 #include "app/coarser_meshes.hpp"
 #include "app/flow_case.hpp"

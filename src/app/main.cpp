@@ -8,10 +8,10 @@
 #include <functional>
 #include <map>
 #include <new>
-#include <optional>
 #include <string>
 
 #include "app/adjoint.hpp"
+#include "app/centers.hpp"
 #include "app/companion.hpp"
 #include "app/verbs.hpp"
 #include "core/error.hpp"
@@ -56,6 +56,20 @@ CLI::Validator number_from(Real least, Real most) {
             return is_good ? std::string() : fmt::format("{} is no number from {} to {}", text, least, most);
           },
           fmt::format("NUMBER from {} to {}", least, most)};
+}
+
+/// Checks a moment centre.
+CLI::Validator center_text() {
+  return {[](const std::string& text) {
+            try {
+              parse_center(text);
+              return std::string();
+            } catch (const InputError& error) {
+              const auto& problem = error.problems().front();
+              return problem.what + "; " + problem.remedy;
+            }
+          },
+          "X[,Y,Z]"};
 }
 
 void add_case_arguments(CLI::App& verb, CaseArguments& arguments) {
@@ -136,13 +150,24 @@ int main(int argc, char** argv) {
       ->transform(CLI::CheckedTransformer(std::map<std::string, Partitioner>{
           {"metis", Partitioner::metis}, {"ptscotch", Partitioner::ptscotch}}));
 
-  std::string file;
-  std::optional<Real> center;
-  auto& derive = *app.add_subcommand("derive", "Derivatives from the history of a motion");
-  derive.add_option("history", file, "history.h5 of a run")->required();
-  derive.add_option("--center", center, "x of the moment centre, in mesh units (default: that of the run)")
-      ->check(number_from(-1e12, 1e12));
+  DeriveArguments derivation;
+  auto& derive = *app.add_subcommand("derive", "Derivatives of finished runs about any moment centres");
+  derive.add_option("files", derivation.files, "history.h5 of motions, or result.json of run or derivatives")
+      ->required();
+  derive
+      .add_option("--center", derivation.centers,
+                  "Moment centre x or x,y,z in mesh units; may be repeated (default: that of the run)")
+      ->check(center_text())
+      ->type_name("")
+      ->take_all()
+      ->allow_extra_args(false);
+  derive
+      .add_option("--centers", derivation.centers_file,
+                  "File with a centre a line: x or x,y,z, # for remarks")
+      ->type_name("FILE");
+  derive.add_flag("--json", derivation.as_json, "Print a list of all files and centres as JSON");
 
+  std::string file;
   auto& info = *app.add_subcommand("info", "What a mesh, history, checkpoint or result file holds");
   info.add_option("file", file, "The file")->required();
 
@@ -173,7 +198,7 @@ int main(int argc, char** argv) {
     if (adjoint) return adjoint_verb(arguments, loads, comm);
     if (check) return check_verb(arguments, whole_case, comm);
     if (partition) return partition_verb(cut, comm);
-    if (derive) return derive_verb(file, center, comm);
+    if (derive) return derive_verb(derivation, comm);
     if (info) return info_verb(file, comm);
     if (watch) return watch_verb(file, once, interval, comm);
     if (keys && comm.is_root()) fmt::print("{}", describe_case_keys());

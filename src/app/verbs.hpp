@@ -33,6 +33,13 @@ struct PartitionArguments {
   Partitioner partitioner = Partitioner::metis;
 };
 
+struct DeriveArguments {
+  std::vector<std::string> files;    ///< history.h5 or result.json
+  std::vector<std::string> centers;  ///< "x" or "x,y,z" in mesh units; none here and below: that of each file
+  std::string centers_file;          ///< with a centre a line; empty: none
+  bool as_json = false;
+};
+
 /// Steady state, then the motion that the case asks for, derivatives, and everything written into the run's
 /// folder.
 RunStatus run_verb(const CaseArguments& arguments, const Communicator& comm);
@@ -48,9 +55,10 @@ RunStatus check_verb(const CaseArguments& arguments, bool whole_case, const Comm
 /// Prepares a mesh for reading by many ranks at once.
 RunStatus partition_verb(const PartitionArguments& arguments, const Communicator& comm);
 
-/// Derivatives from a history file, about any centre along the axis (none: that of the history).
-RunStatus derive_verb(const std::string& history_file, std::optional<Real> center_x,
-                      const Communicator& comm);
+/// Prints derivatives of histories and results about any centres: a table each, and the travel of the centre
+/// of gravity where there are several; or all as JSON, with the loads of the steady flow or of every step.
+/// All files and centres are read before anything is printed.
+RunStatus derive_verb(const DeriveArguments& arguments, const Communicator& comm);
 
 /// Prints what a file is and holds: mesh, history, checkpoint or result.
 RunStatus info_verb(const std::string& file, const Communicator& comm);

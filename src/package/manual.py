@@ -62,6 +62,18 @@ made by the user, this file ends the run with a checkpoint
 .PP
 A folder holds the results of one flow and one verb, and works for one run at a time. What stands there finished is replaced when the
 result of a new run stands; results of another flow or verb only with \-\-overwrite.
+.SH MOMENT CENTRES
+.B alphadot derive
+moves finished derivatives, no flow is computed again. A centre is x, or x,y,z in the unit of the mesh; x alone keeps the run's y and
+z. The file of
+.B \-\-centers
+has one a line and # for remarks. The rates are about the new centre, too: it and the old one differ by a wind, so that derivatives by
+q about a centre above or below the run's own, and by r beside it, would need derivatives by speed, which are not known. They are left
+out. In a stream at incidence the same surge is neglected to first order. Several centres of one file stand side by side in a last
+table: x_cg, Cm_alpha, Cm_q, Cm_alphadot, their sum, static margin. A run that is not converged has its status above each table.
+.B \-\-json
+prints a list with an entry a file and centre: file, status, message, center, reference, freestream, loads (of the steady flow, of a
+history at every step), uncertainty, left_out, derivatives (value, uncertainty, method, converged, parts).
 .SH SIGNALS
 .TP
 .B USR1
@@ -89,7 +101,8 @@ Before the flow is computed there is nothing to save, and signals to end do so a
 mpirun \-n 8 alphadot run missile.toml \-\-out runs/first
 alphadot watch runs/first
 mpirun \-n 8 alphadot derivatives missile.toml \-\-set freestream.mach=2 \-\-out runs/linear
-alphadot derive runs/first/history.h5 \-\-center 0.7
+alphadot derive runs/linear/result.json \-\-center 0.7 \-\-center 0.8,0,0.1
+alphadot derive runs/*/result.json \-\-centers centers.txt \-\-json
 .fi
 .SH SEE ALSO
 .BR mpirun (1),

@@ -4,24 +4,11 @@
 
 #include <cmath>
 
-#include "analysis/moment_center.hpp"
+#include "analysis/static_margin.hpp"
 #include "core/error.hpp"
 
 namespace alphadot {
 namespace {
-
-// Expected: the projections of the force on the wind's direction u = (cos a cos b, -sin b, sin a cos b) in
-// mesh axes and on its two normals.
-TEST(Axes, WindForcesAreProjections) {
-  const Real a = 0.2, b = -0.13;
-  const Coefficients body{.CA = 0.4, .CY = -0.3, .CN = 1.7};
-  const Vec3 wind{std::cos(a) * std::cos(b), -std::sin(b), std::sin(a) * std::cos(b)};
-  const Vec3 up{-std::sin(a), 0, std::cos(a)};
-  const auto found = wind_forces(body, a, b);
-  EXPECT_NEAR(found.CD, dot(body.force(), wind), 1e-15);
-  EXPECT_NEAR(found.CL, dot(body.force(), up), 1e-15);
-  EXPECT_NEAR(found.CC, dot(body.force(), cross(up, wind)), 1e-15);
-}
 
 /// Loads on body axes as smooth functions of the flight variables; p and r about body axes.
 Coefficients model(Real alpha, Real beta, Real p, Real r) {
@@ -67,36 +54,12 @@ TEST(Axes, RollAndYawRateGoTogether) {
 }
 
 // Moment transfer by the margin must make Cm_alpha vanish: that is what a neutral point is.
-TEST(MomentCenter, StaticMargin) {
+TEST(StaticMargin, IsWhereTheMomentVanishes) {
   const Estimate margin = static_margin({9.4, 0.1}, {-17, 0.2});
   EXPECT_NEAR(-17 + margin.value * 9.4, 0, 1e-14);
   EXPECT_NEAR(margin.value, 1.8085, 1e-4);
   // Worst signs of both: 17.2 / 9.3 - 17 / 9.4 = 0.0409, to first order.
   EXPECT_NEAR(margin.uncertainty, 0.0405, 5e-4);
-}
-
-// Wanted values made with dx = -0.27 exactly, then with one of the five raised by 1 %.
-TEST(MomentCenter, FitFindsTheShift) {
-  std::vector<StaticPoint> points;
-  for (const Real mach : {1.58, 1.75, 1.89, 2.10, 2.50}) {
-    const Real slope = 18 / mach, moment = -60 / mach;
-    points.push_back({slope, moment, moment - 0.27 * slope});
-  }
-  const auto exact = fit_moment_center(points);
-  EXPECT_NEAR(exact.dx.value, -0.27, 1e-13);
-  EXPECT_NEAR(exact.dx.uncertainty, 0, 1e-13);
-  EXPECT_NEAR(exact.worst_misfit, 0, 1e-13);
-
-  points[4].wanted_Cm_alpha *= 1.01;
-  const auto disturbed = fit_moment_center(points);
-  EXPECT_LE(std::abs(disturbed.dx.value + 0.27), disturbed.dx.uncertainty);
-  EXPECT_GT(disturbed.dx.uncertainty, 0.005);
-  EXPECT_NEAR(disturbed.worst_misfit, 0.008, 5e-4) << "1 % shared by five points: four fifths stay with one";
-}
-
-TEST(MomentCenter, FitNeedsTwoPoints) {
-  EXPECT_THROW(fit_moment_center(std::vector<StaticPoint>{{9, -17, -19}}), InputError);
-  EXPECT_THROW(fit_moment_center(std::vector<StaticPoint>{{9, -17, -19}, {9, -17, 0}}), InputError);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Extrapolation of the mesh size to zero.
+// Extrapolation to a mesh size of zero.
 #include <gtest/gtest.h>
 
 #include <array>

@@ -162,14 +162,25 @@ class Commands(unittest.TestCase):
         self.assertAlmostEqual(first, again, delta=1e-9)
 
     def test_derive(self) -> None:
-        self.assertIn("Cm_alphadot", self.succeeded("derive", "plunge/history.h5"))
-
-    def test_derive_about_another_center(self) -> None:
+        """The history and the result of a motion say the same, also about another centre."""
         derivatives = {name: entry["value"] for name, entry in self.result()["derivatives"].items()}
+        self.assertIn("Cm_alphadot", self.succeeded("derive", "plunge/history.h5"))
+        words = ("--center", 0, "--center", 0.25, "--json")
+        items = json.loads(self.succeeded("derive", "plunge/history.h5", "plunge/result.json", *words))
+        for history, result in zip(items[:2], items[2:], strict=True):
+            steps, steady = history.pop("loads"), result.pop("loads")
+            self.assertEqual(history | {"file": "plunge/result.json"}, result)
+            self.assertEqual([len(column) for column in (*steps.values(), *steady.values())], 6 * [STEPS] + 6 * [1])
+            dx = history["center"][0]
+            self.assertAlmostEqual(steady["Cm"][0], self.result()["forces"]["Cm"] + dx * self.result()["forces"]["CN"], delta=1e-12)
+            with open(self.folder / "plunge" / "history.csv") as file:
+                rows = csv.DictReader(line for line in file if not line.startswith("#"))
+                recorded = [float(row["total/Cm"]) + dx * float(row["total/CN"]) for row in rows]
+            for found, expected in zip(steps["Cm"], recorded, strict=True):
+                self.assertAlmostEqual(found, expected, delta=1e-12)
+        self.assertEqual({name: entry["value"] for name, entry in items[0]["derivatives"].items()}, derivatives)
         moved = derivatives["Cm_alpha"] + 0.25 * derivatives["CN_alpha"]
-        table = self.succeeded("derive", "plunge/history.h5", "--center", "0.25")
-        (line,) = (line for line in table.splitlines() if line.split()[:1] == ["Cm_alpha"])
-        self.assertAlmostEqual(float(line.split()[1]), moved, delta=1e-3)
+        self.assertAlmostEqual(items[1]["derivatives"]["Cm_alpha"]["value"], moved, delta=1e-12)
 
     def test_info(self) -> None:
         self.assertIn(f"{CELLS} tetrahedra", self.succeeded("info", "box.msh"))

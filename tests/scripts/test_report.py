@@ -83,6 +83,30 @@ class Report(Workspace):
         self.assertEqual(float(rows[0]["paper, field velocity"]), -41.0254)
         here, error = float(rows[0]["here, 5.5 d"]), float(rows[0]["5.5 d / field, %"])
         self.assertAlmostEqual(error, 100 * (here / -41.0254 - 1))
+        self.moved_by_the_program(rows)
+
+    def moved_by_the_program(self, rows: list[dict[str, str]]) -> None:
+        """The stub moves Cm_alpha, -60 / Mach about 5.5 d, by 10 a diameter: least squares on the relative misfit to the paper's
+        static values, by hand. Each centre is asked for once, for all runs together."""
+        wanted = [float(row["paper, field velocity"]) for row in rows]
+        slopes = [10 / paper for paper in wanted]
+        misfits = [1 + 60 / float(row["Mach"]) / paper for row, paper in zip(rows, wanted)]
+        dx = sum(slope * misfit for slope, misfit in zip(slopes, misfits)) / sum(slope**2 for slope in slopes)
+        for row in rows:
+            self.assertAlmostEqual(float(row[f"here, {5.5 + dx:.2f} d"]), -60 / float(row["Mach"]) + 10 * dx)
+        calls = (self.folder / "runs" / "derive.txt").read_text().splitlines()
+        self.assertEqual({call.split()[0] for call in calls}, {"5"})
+        centers = [call.split()[1] for call in calls]
+        self.assertEqual(len(centers), len(set(centers)), calls)
+        self.assertLessEqual({"None", "5.5", "6.1"}, set(centers))
+
+    def test_program_that_cannot_move(self) -> None:
+        self.write("[[runs]]\nmach = 2\n")
+        self.sweep("run", "--no-report")
+        program = self.folder / "old"
+        program.write_text("#!/bin/sh\necho 'alphadot: error: no such option' >&2; exit 2\n")
+        program.chmod(0o755)
+        self.assertIn("no such option", self.sweep("report", "--program", program, code=1))
 
     def test_nothing_done(self) -> None:
         self.write("[[runs]]\nmach = 2\n")
