@@ -8,6 +8,7 @@
 #include <optional>
 #include <vector>
 
+#include "analysis/moment_transfer.hpp"
 #include "core/error.hpp"
 
 namespace alphadot {
@@ -71,7 +72,8 @@ Real error_by_differences(std::span<const MeshDerivatives> level, Variable varia
 /// Root mean square of each entry about two centres.
 DerivativeSetOf<Real> scales_of(const DerivativeSet& derivatives, Real body_length) {
   const Real arm = lever * body_length;
-  const auto before = moment_transfer(derivatives, -arm), behind = moment_transfer(derivatives, arm);
+  const auto before = moment_transfer(derivatives, Vec3{-arm, 0, 0}),
+             behind = moment_transfer(derivatives, Vec3{arm, 0, 0});
   DerivativeSetOf<Real> out;
   for (const auto& [variable, column] : derivatives)
     for (int i = 0; i < column.size(); ++i)

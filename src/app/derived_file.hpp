@@ -6,6 +6,7 @@
 
 #include "analysis/coefficients.hpp"
 #include "analysis/derivatives.hpp"
+#include "core/flight.hpp"
 #include "io/provenance.hpp"
 
 namespace alphadot {
