@@ -42,6 +42,7 @@ std::int64_t sum_over_rows(std::span<const Row> rows, GlobalIndex first, const C
 template <class Element, class Row>
 std::int64_t write_array(std::optional<hdf5::File>& file, const std::string& name, std::span<const Row> rows,
                          const Communicator& comm) {
+  // NOLINTNEXTLINE(bugprone-sizeof-expression): a row may be one element
   constexpr auto columns = static_cast<GlobalIndex>(sizeof(Row) / sizeof(Element));
   const auto count = static_cast<GlobalIndex>(rows.size());
   GlobalIndex first = 0;

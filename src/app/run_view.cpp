@@ -105,7 +105,7 @@ std::string moment_row(const std::string& folder) {
 }
 
 std::string phase_text(const Json& progress) {
-  const std::string phase = text_of(progress, "phase");
+  std::string phase = text_of(progress, "phase");
   if (phase == "steady")
     return fmt::format("steady {}, 1e{:+.1f} of 1e{:+.0f}", number_of(progress, "iteration"),
                        -number_of(progress, "orders"), -number_of(progress, "of_orders"));

@@ -83,12 +83,13 @@ class Derivatives(ExactCase):
             found = run(folder, "derivatives", "sharp_cone/full.toml", folder / "askew.su2", settings)["derivatives"]
         value = {name: entry["value"] for name, entry in found.items()}
         scale = abs(EXACT["Cm_q"]) * math.sin(a)
-        for name, exact in {
-            "Cl_p": EXACT["Cm_q"] * math.sin(a) ** 2,
-            "Cn_p": -EXACT["Cm_q"] * math.sin(a) * math.cos(a),
-            "CY_p": -EXACT["CN_q"] * math.sin(a),
-        }.items():
-            self.assert_close(name, value[name], exact, 0.01, of=scale if name != "CY_p" else exact)
+        # CN_q itself is up to 1.9 % off on meshes of this size (table in the case's README), Cm_q 1.7 %; the share of the scale is less.
+        for name, exact, share, of in (
+            ("Cl_p", EXACT["Cm_q"] * math.sin(a) ** 2, 0.01, scale),
+            ("Cn_p", -EXACT["Cm_q"] * math.sin(a) * math.cos(a), 0.017, scale),
+            ("CY_p", -EXACT["CN_q"] * math.sin(a), 0.019, EXACT["CN_q"] * math.sin(a)),
+        ):
+            self.assert_close(name, value[name], exact, share, of=of)
 
 
 if __name__ == "__main__":
