@@ -156,7 +156,7 @@ std::vector<CaseKey> make_keys() {
       .key("method", &DerivativeSettings::method, WordValue{words_of<SensitivityMethod>},
            "solver of the linear systems: GMRES, or the march of the block scheme")
       .key("orders", &DerivativeSettings::orders, NumberValue{.from = 0.1, .to = 12},
-           "decades that the preconditioned linear residual must drop")
+           "decades that the linear residual, scaled cell by cell, must drop")
       .key("directions", &DerivativeSettings::directions, IntegerValue{.from = 2, .to = 1000},
            "of the Krylov space of GMRES before it begins anew; 40 bytes a cell each")
       .key("max_iterations", &DerivativeSettings::max_iterations, count, "limit of linear iterations")

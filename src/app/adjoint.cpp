@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <set>
 #include <span>
 #include <string>
 #include <utility>
@@ -83,21 +84,45 @@ bool solve_all(FlowCase& flow, const std::vector<Functional>& functionals, Adjoi
   return true;
 }
 
-std::vector<TableRow> rows_of(const FlowCase& flow, const std::vector<Functional>& functionals,
+/// Names of the functionals whose adjoints, or those that they rest on, did not reach what was asked for. Of
+/// a flow that has not come far to rest none has: what it leaves in the derivatives is in no uncertainty
+/// here.
+std::set<std::string> unconverged(FlowCase& flow, const std::vector<Functional>& functionals,
+                                  const Adjoints& adjoints) {
+  const bool is_deep = flow.steady_orders() >= deep_steady_orders;
+  if (!is_deep)
+    flow.fall_short(fmt::format("adjoints are about a flow {:.1f} decades down, and need {:g}",
+                                flow.steady_orders(), deep_steady_orders));
+  std::set<std::string> out;
+  for (const auto& links : chains_of(functionals))
+    for (const auto& link : links) {
+      const Adjoint& adjoint = adjoints.at(link);
+      const bool rests_on_it = link.rates > 0 && out.contains(link.before().name());
+      if (!flow.reached("the adjoint of " + link.name(), adjoint.relative_residual, adjoint.iterations) ||
+          !is_deep || rests_on_it)
+        out.insert(link.name());
+    }
+  return out;
+}
+
+std::vector<TableRow> rows_of(FlowCase& flow, const std::vector<Functional>& functionals,
                               const Adjoints& adjoints, std::span<const StreamChange> stream) {
   const Case& settings = flow.settings();
+  const auto fell_short = unconverged(flow, functionals, adjoints);
   std::vector<TableRow> rows;
   for (const auto& functional : functionals) {
     const Adjoint& adjoint = adjoints.at(functional);
+    const std::size_t first = rows.size();
     for (const Variable variable : variables_of(functional, settings))
       rows.push_back({derivative_name(functional, name(variable)), derivative(adjoint, variable, settings),
                       "adjoint, k -> 0"});
-    if (functional.rates > 0) continue;
-    for (std::size_t i = 0; i < stream.size(); ++i)
+    for (std::size_t i = 0; functional.rates == 0 && i < stream.size(); ++i)
       rows.push_back({derivative_name(functional, stream[i].name()),
                       {stream[i].by_itself(functional, flow.setup().domain.patch_names) + adjoint.products[i],
                        adjoint.products_error[i]},
                       "adjoint, incidence and reduced rates held"});
+    for (std::size_t i = first; i < rows.size(); ++i)
+      rows[i].converged = !fell_short.contains(functional.name());
   }
   return rows;
 }
@@ -235,7 +260,8 @@ RunStatus adjoint_verb(const CaseArguments& arguments, const std::vector<std::st
   flow.print(result, rows);
   spdlog::info("of these, steady state {:.1f} s of processor, adjoints {:.1f} s",
                result.performance.steady_cpu_s, result.performance.linear_cpu_s);
-  return status;
+  flow.print_end(result);
+  return result.status;
 }
 
 }  // namespace alphadot

@@ -302,6 +302,14 @@ RunStatus FlowCase::march() {
   return fell_short ? RunStatus::unconverged : result.status;
 }
 
+bool FlowCase::reached(std::string_view what, Real relative_residual, int iterations) {
+  const Real asked = settings().derivatives.orders;
+  if (relative_residual <= std::pow(10.0, -asked)) return true;
+  fall_short(fmt::format("the linear residual for {} dropped {:.1f} of {:g} decades in {} iterations", what,
+                         -std::log10(relative_residual), asked, iterations));
+  return false;
+}
+
 void FlowCase::fall_short(std::string of_what) {
   spdlog::warn("not reached: {}", of_what);
   shortfalls_.push_back(std::move(of_what));

@@ -20,6 +20,9 @@
 
 namespace alphadot {
 
+/// A steady residual that has dropped by fewer decades leaves more in derivatives than their linear solves.
+inline constexpr Real deep_steady_orders = 6;
+
 /// Mesh, solver and steady flow of one case on this rank.
 class FlowCase {
  public:
@@ -61,6 +64,8 @@ class FlowCase {
   /// Something that the case asked for was not reached: the run cannot end as converged or completed any
   /// more, and all that it writes says so.
   void fall_short(std::string of_what);
+  /// Whether a linear solve for `what` dropped by the decades that the case asks for; falls short when not.
+  bool reached(std::string_view what, Real relative_residual, int iterations);
   const std::vector<std::string>& shortfalls() const { return shortfalls_; }
   /// The status with which a run that came to this end ends, shortfalls included.
   RunStatus status_of(RunStatus end) const;

@@ -78,15 +78,6 @@ CoefficientsOf<Estimate> column_of(Variable variable, const Sensitivity& solutio
   return out;
 }
 
-/// Whether a solve did what it was asked for; says so when it did not.
-bool reached(Variable variable, const Sensitivity& solution, FlowCase& flow) {
-  const Real asked = flow.settings().derivatives.orders, left = solution.relative_residual;
-  if (left <= std::pow(10.0, -asked)) return true;
-  flow.fall_short(fmt::format("the linear residual for {} dropped {:.1f} of {:g} decades in {} iterations",
-                              name(variable), -std::log10(left), asked, solution.iterations));
-  return false;
-}
-
 /// Solves for all variables but those that the checkpoint has, with a checkpoint after each group; adds those
 /// that fell short to `unconverged`. The uncertainty is that of the linear solves. Nothing when the run was
 /// stopped.
@@ -114,15 +105,14 @@ DerivativeSet solve_all(FlowCase& flow, SensitivitySolver& solver, Responses& re
       spdlog::info("{:9} {:3} iterations, linear residual {:.1e}", name(variable), solution.iterations,
                    solution.relative_residual);
       const auto angle = rate_of(variable);
-      if (!reached(variable, solution, flow) || (angle && unconverged.contains(*angle)))
+      if (!flow.reached(name(variable), solution.relative_residual, solution.iterations) ||
+          (angle && unconverged.contains(*angle)))
         unconverged.insert(variable);
     }
   }
   return out;
 }
 
-/// A steady residual that has dropped by fewer decades is answered by the derivatives of a better flow.
-constexpr Real deep_enough = 6;
 /// For what a step of Newton's method leaves to the next, also of a component that it happens not to move:
 /// shown to hold from one decade on.
 constexpr Real step_safety = 2, of_other_components = 0.3;
@@ -195,7 +185,7 @@ EstimatedDerivatives linear_derivatives(FlowCase& flow) {
   auto& linear = out.parts.emplace_back(UncertaintyPart{"linear", {}});
   for (const auto& [variable, column] : out.derivatives)
     for (int i = 0; i < column.size(); ++i) linear.share[variable][i] = column[i].uncertainty;
-  if (flow.steady_orders() < deep_enough) {
+  if (flow.steady_orders() < deep_steady_orders) {
     spdlog::info("once more about a flow one step of Newton's method nearer to the steady one");
     auto share = steady_part(flow, solver, responses, out.derivatives, go_on);
     if (share.empty()) return {};

@@ -100,6 +100,24 @@ class AdjointTest(unittest.TestCase):
         for name, value in whole.items():
             self.assertAlmostEqual(part[name], value, delta=AS_ONE * max(abs(value), 1), msg=name)
 
+    def test_says_what_was_not_reached(self) -> None:
+        """A cut linear solve, and a steady flow that is no more than begun: forward solves at ten decades tell what is right."""
+        for settings, part in (
+            ({"derivatives.max_iterations": 2}, "the linear residual for the adjoint of CN dropped"),
+            ({"steady.orders": 2}, "decades down"),
+            ({"steady.max_iterations": 5}, "the steady residual dropped"),
+        ):
+            with self.subTest(settings):
+                words = [word for key, value in settings.items() for word in ("--set", f"{key}={value}")]
+                done = run(self.folder, "adjoint", "case.toml", "--out", "cut", "--overwrite", "--of", "CN,CN_alphadot", *words)
+                self.assertEqual(done.codes, [5] * RANKS, done.err)
+                found = self.result("cut")
+                self.assertEqual(found["status"], "not_converged")
+                self.assertIn(part, found["message"] + " ".join(found["not_reached"]))
+                self.assertFalse(any(entry["converged"] for entry in found["derivatives"].values()))
+                self.assertIn(part, done.err.splitlines()[-1])
+                self.assertIn("# Status: not_converged", (self.folder / "cut/adjoint.csv").read_text())
+
     def test_says_what_is_wrong(self) -> None:
         for arguments, part in (
             (("--of", "Cd"), 'no load "Cd"'),

@@ -83,13 +83,22 @@ class Derivatives(ExactCase):
             found = run(folder, "derivatives", "sharp_cone/full.toml", folder / "askew.su2", settings)["derivatives"]
         value = {name: entry["value"] for name, entry in found.items()}
         scale = abs(EXACT["Cm_q"]) * math.sin(a)
-        # CN_q itself is up to 1.9 % off on meshes of this size (table in the case's README), Cm_q 1.7 %; the share of the scale is less.
-        for name, exact, share, of in (
-            ("Cl_p", EXACT["Cm_q"] * math.sin(a) ** 2, 0.01, scale),
-            ("Cn_p", -EXACT["Cm_q"] * math.sin(a) * math.cos(a), 0.017, scale),
-            ("CY_p", -EXACT["CN_q"] * math.sin(a), 0.019, EXACT["CN_q"] * math.sin(a)),
-        ):
-            self.assert_close(name, value[name], exact, share, of=of)
+        for name, exact in {
+            "Cl_p": EXACT["Cm_q"] * math.sin(a) ** 2,
+            "Cn_p": -EXACT["Cm_q"] * math.sin(a) * math.cos(a),
+        }.items():
+            self.assert_close(name, value[name], exact, 0.01, of=scale)
+        # Turned back, the same flow on the same mesh: what is left is that of the linear solves. (CY_p = -sin(a) CN_q, which the half
+        # model holds to 1 %; this mesh gives CN_q 1.2 to 1.9 % too high, whichever way it lies.)
+        upright = derivatives("full.toml", "cone_full.msh")
+        p, r = ({load: upright[f"{load}_{by}"] for load in ("CY", "Cl", "Cn")} for by in ("p", "r"))
+        of_roll = {load: math.cos(a) * p[load] - math.sin(a) * r[load] for load in p}  # (p, r) = (cos a, -sin a)
+        for name, same in {
+            "CY_p": of_roll["CY"],
+            "Cl_p": math.cos(a) * of_roll["Cl"] - math.sin(a) * of_roll["Cn"],
+            "Cn_p": math.sin(a) * of_roll["Cl"] + math.cos(a) * of_roll["Cn"],
+        }.items():
+            self.assert_close(name, value[name], same, 1e-3, of=scale)
 
 
 if __name__ == "__main__":
