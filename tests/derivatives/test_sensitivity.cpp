@@ -130,7 +130,7 @@ TEST_P(SensitivityTest, IsTheDerivativeOfSteadyStatesInFlight) {
         largest = std::max(largest, std::abs(difference[i]));
       }
     }
-    EXPECT_GT(comm.max(largest), 0.05) << "a response that is there";
+    EXPECT_GT(comm.max(largest), response.name == "p" ? 0.05 : 0.1) << "a response that is there";
     const Load difference = (0.5 / step) * (above.result.report.total - below.result.report.total);
     EXPECT_NEAR(norm(response.total.force - difference.force), 0, 1e-6);
     EXPECT_NEAR(norm(response.total.moment - difference.moment), 0, 1e-6);
