@@ -38,10 +38,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 
-try:
-    from meshing import program
-except ImportError as error:
-    sys.exit(f"alphadot mesh: {error}; install the Debian packages python3-gmsh, python3-numpy and python3-matplotlib")
+from meshing.limits import FEWEST, LEVELS, MODELS, MOST
 
 
 def mach_range(text: str) -> tuple[float, float]:
@@ -60,8 +57,8 @@ def cell_count(text: str) -> int:
         value = int(float(text))
     except (ValueError, OverflowError):
         raise argparse.ArgumentTypeError(f"'{text}' is not a number of cells") from None
-    if not program.FEWEST <= value <= program.MOST:
-        raise argparse.ArgumentTypeError(f"{text} cells: it makes {program.FEWEST:,} to {program.MOST:,}")
+    if not FEWEST <= value <= MOST:
+        raise argparse.ArgumentTypeError(f"{text} cells: it makes {FEWEST:,} to {MOST:,}")
     return value
 
 
@@ -73,14 +70,14 @@ def parse() -> argparse.Namespace:
     parser.add_argument("description", type=Path, nargs="?", metavar="DESCRIPTION", help="missile.toml, or a design of OpenRocket (.ork) or RASAero II (.CDX1)")
     parser.add_argument("-o", "--output", type=Path, metavar="FOLDER", help="default: the description's name, here")
     sizes = parser.add_mutually_exclusive_group()
-    levels = ", ".join(f"{name} {cells:,}" for name, cells in program.LEVELS.items())
+    levels = ", ".join(f"{name} {cells:,}" for name, cells in LEVELS.items())
     sizes.add_argument(
-        "--level", nargs="+", choices=program.LEVELS, default=["coarse"], metavar="LEVEL",
+        "--level", nargs="+", choices=LEVELS, default=["coarse"], metavar="LEVEL",
         help=f"one, or up to three for the uncertainty of the mesh; cells of a half model: {levels} (default: coarse)",
     )  # fmt: skip
     sizes.add_argument("--cells", type=cell_count, metavar="N", help="tetrahedra of the mesh instead of a level's")
     parser.add_argument("--mach", type=mach_range, metavar="LOW:HIGH", help="in place of the description's range")
-    parser.add_argument("--model", choices=program.MODELS, help="default: half where the missile is symmetric about y = 0")
+    parser.add_argument("--model", choices=MODELS, help="default: half where the missile is symmetric about y = 0")
     parser.add_argument("--stages", type=int, nargs="+", metavar="N", help="of an .ork file, 1 at the nose (default: all)")
     parser.add_argument("--no-picture", action="store_true", help="leave out the picture")
     parser.add_argument("--keys", action="store_true", help="print every key of a description, and end")
@@ -92,5 +89,14 @@ def parse() -> argparse.Namespace:
     return arguments
 
 
+def main() -> int:
+    arguments = parse()
+    try:
+        from meshing import program  # after the command line, whose help needs none of the packages
+    except ImportError as error:
+        sys.exit(f"alphadot mesh: {error}; install the Debian packages python3-gmsh, python3-numpy and python3-matplotlib")
+    return program.main(arguments)
+
+
 if __name__ == "__main__":
-    sys.exit(program.main(parse()))
+    sys.exit(main())

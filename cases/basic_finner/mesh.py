@@ -22,7 +22,7 @@ try:
     import gmsh
     import numpy as np
 
-    import meshing
+    from meshing import toolbox as meshing
 except ImportError as error:
     sys.exit(f"mesh.py: {error}; install the Debian packages python3-gmsh and python3-numpy and run with /usr/bin/python3")
 

@@ -17,7 +17,7 @@ try:
     import matplotlib
     import numpy as np
 
-    import meshing
+    from meshing import toolbox as meshing
 except ImportError as error:
     sys.exit(f"picture.py: {error}; install the Debian packages python3-gmsh and python3-matplotlib and use /usr/bin/python3")
 matplotlib.use("Agg")

@@ -13,7 +13,7 @@ import math
 import gmsh
 import numpy as np
 
-import meshing
+from meshing import toolbox as meshing
 
 Section = list[tuple[float, float]]
 

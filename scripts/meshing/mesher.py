@@ -14,6 +14,7 @@ from meshing.domain import Domain, domain_of
 from meshing.generator import generate
 from meshing.geometry import Classifier, build_fluid
 from meshing.improvement import relaxed, split_corners
+from meshing.limits import LEVELS
 from meshing.missile import Missile
 from meshing.quality import check
 from meshing.sector import Sector, sector_of
@@ -21,8 +22,6 @@ from meshing.sizes import SizeField, size_field
 from meshing.symmetry import is_symmetric, mirrored
 from meshing.tetrahedra import MeshError, TetMesh, oriented
 
-LEVELS = {"tiny": 30_000, "coarse": 100_000, "medium": 250_000, "fine": 700_000}  # cells of a half model
-MODELS = ("half", "full")
 TOLERANCE = 0.12  # of the number of cells; beyond, the mesh is made again
 PLANES = {1: "symmetry_y", 2: "symmetry_z"}
 

@@ -14,14 +14,13 @@ import gmsh
 from meshing.case_file import case_text
 from meshing.description import describe_keys, read_description
 from meshing.files import write
-from meshing.mesher import LEVELS, MODELS, Made, make_mesh
+from meshing.limits import LEVELS
+from meshing.mesher import Made, make_mesh
 from meshing.missile import Flight, Missile
 from meshing.openrocket import read_openrocket
 from meshing.rasaero import read_rasaero
 from meshing.tetrahedra import MeshError
 from meshing.toml_file import DescriptionError
-
-FEWEST, MOST = 5_000, 5_000_000  # cells
 
 
 def main(arguments: argparse.Namespace) -> int:

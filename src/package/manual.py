@@ -167,10 +167,10 @@ def manual(program: str) -> str:
     page += ".SH SYNOPSIS\n.B alphadot\n.I VERB\n[\\fIoptions\\fR] [\\fIfile\\fR]\n"
     page += f".SH DESCRIPTION\n{DESCRIPTION}.SH OPTIONS\n{listed(entries(head, 'Options'))}.SH VERBS\n"
     for verb, meaning in verbs:
-        if verb == "mesh":  # a program in Python, which may want packages that are not here
-            page += f".SS mesh\n{roff(meaning)}.\nIts options: alphadot mesh \\-\\-help; what a description may hold: alphadot mesh \\-\\-keys.\n"
-            continue
         text = told(program, verb, "--help")
+        if verb == "mesh":  # a program of its own, whose help is as it is
+            page += f".SS mesh\n.nf\n{roff(text)}.fi\n"
+            continue
         own = entries(text, "Positionals") + [entry for entry in entries(text, "Options") if "--help" not in entry[0]]
         page += f".SS {verb}\n{roff(meaning)}.\n{listed(own)}"
     keys = roff(told(program, "keys").strip("\n"))

@@ -16,7 +16,7 @@ from exact import CASES, MESHES, ExactCase, cone_derivatives, run, table
 sys.path[:0] = [str(CASES / "sharp_cone"), str(CASES.parent / "scripts")]
 import compare
 import gmsh
-import meshing
+from meshing import toolbox as meshing
 
 STEADY = table("sharp_cone/reference/exact_cone_steady.csv")
 NAMES = ("CN_alpha", "CN_q", "Cm_q", "CN_alphadot", "Cm_alphadot")

@@ -56,9 +56,6 @@ class Install(unittest.TestCase):
         self.assertIn("watch", verbs)
         for verb in verbs:
             self.assertRegex(text, rf"\n   {verb}\n")
-            if verb == "mesh":  # a program of its own: the page says where its options stand
-                self.assertIn("alphadot mesh --help", text)
-                continue
             for option in re.findall(r"--[a-z]+", ran("alphadot", verb, "--help", env=self.environment)):
                 self.assertIn(option, text)
         for key in re.findall(r"^  ([a-z_]+) ", ran("alphadot", "keys", env=self.environment), re.MULTILINE):

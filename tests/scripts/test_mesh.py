@@ -19,7 +19,7 @@ import numpy as np
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "scripts"))
 
-import meshing
+from meshing import toolbox as meshing
 from meshing.description import read_description
 from meshing.mesher import Made, make_mesh
 from meshing.missile import Missile
@@ -123,6 +123,15 @@ class Program(unittest.TestCase):
             mesh = meshing.read(self.folder / "missile" / "mesh.msh")
         self.assertEqual(set(case["boundary"]), set(mesh.patches))
         self.assertEqual({kind for kind in case["boundary"].values()}, {"wall", "jet", "symmetry", "farfield"})
+
+    def test_help_needs_python_alone(self) -> None:
+        bare = [sys.executable, "-S", "-B", str(ROOT / "scripts" / "mesh.py")]  # -S: without the packages of Debian
+        done = subprocess.run([*bare, "--help"], capture_output=True, text=True)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertIn("--level", done.stdout)
+        done = subprocess.run([*bare, "--keys"], capture_output=True, text=True)
+        self.assertNotEqual(done.returncode, 0)
+        self.assertRegex(done.stderr, r"^alphadot mesh: No module named '\w+'; install the Debian packages python3-gmsh")
 
     def test_mistakes(self) -> None:
         (self.folder / "wrong.toml").write_text(BODY + FINS.replace("span = 1", "span = 0"))
