@@ -137,9 +137,8 @@ def _behind(shock: float, mach: float) -> np.ndarray:
     return behind_shock(np.array([0.0, 1.0, 0.0]), 0.0, mach * _axis(shock))[:2] / math.sqrt(mach**2 + 2.0 / (GAMMA - 1.0))
 
 
-@functools.lru_cache
-def steady(half_angle: float, mach: float) -> ConicalFlow:
-    """Half-angle in degrees. Raises NoExactFlow where the shock is detached, or too weak to be told from a Mach wave."""
+def shock_angle(half_angle: float, mach: float) -> float:
+    """Of a cone, to some thousandths of a degree; degrees. Raises NoExactFlow where the shock is detached."""
     if not (0.0 < half_angle < 57.0 and mach > 1.0):
         raise NoExactFlow(f"cone of {half_angle} degrees at Mach {mach}")
     cone, mu = math.radians(half_angle), math.asin(1.0 / mach)
@@ -155,6 +154,14 @@ def steady(half_angle: float, mach: float) -> ConicalFlow:
     for _ in range(40):
         shock = 0.5 * (low + high)
         low, high = (low, shock) if _cone_of(shock, mach)[0] > cone else (shock, high)
+    return math.degrees(shock)
+
+
+@functools.lru_cache
+def steady(half_angle: float, mach: float) -> ConicalFlow:
+    """Half-angle in degrees. Raises NoExactFlow where the shock is detached, or too weak to be told from a Mach wave."""
+    cone, mu = math.radians(half_angle), math.asin(1.0 / max(mach, 1.0))
+    shock = math.radians(shock_angle(half_angle, mach))
     # Newton's method on the two velocities at the shock, from there.
     unknown = np.array([_cone_of(shock, mach)[1], math.log(max(shock - mu, LEAST))])
 

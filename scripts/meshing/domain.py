@@ -43,12 +43,12 @@ def bow_shock(missile: Missile, mach: float) -> Shock:
     mean = body.nose_angle()
     if mean >= angle - 8.0:
         try:
-            return Shock(0.0, cone.steady(max(angle, 1.0), mach).shock_angle)
+            return Shock(0.0, cone.shock_angle(max(angle, 1.0), mach))
         except NoExactFlow:
             pass
     mach_angle = math.degrees(math.asin(1.0 / mach))
     try:
-        far = cone.steady(min(max(mean, 1.0), 30.0), mach).shock_angle
+        far = cone.shock_angle(min(max(mean, 1.0), 30.0), mach)
     except NoExactFlow:
         far = 0.5 * (mach_angle + 90.0)
     nose_radius = min(_tip_radius(missile), 0.5)

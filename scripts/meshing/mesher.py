@@ -82,7 +82,7 @@ def mesh_sector(missile: Missile, domain: Domain, sector: Sector, sizes: SizeFie
     mesh = TetMesh(points, tets, {name: np.concatenate(patch) for name, patch in parts.items()})
     for axis in sector.planes:
         points[mesh.patches[PLANES[axis]], axis] = 0.0
-    return relaxed(split_corners(oriented(mesh)))
+    return relaxed(split_corners(oriented(mesh)), below=0.3)
 
 
 def boxes(missile: Missile, domain: Domain, sector: Sector) -> tuple[np.ndarray, np.ndarray]:

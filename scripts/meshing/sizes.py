@@ -21,7 +21,7 @@ CAP = 2.5  # wall sizes, inside the domain of dependence
 BEYOND = 1.06  # of the tangent of the shock's angle
 TAIL = 0.8  # diameters around the tail
 FARTHEST = 14.0  # in frusta, wall sizes
-PER_VOLUME = 9.0  # tetrahedra in the cube of the size, as gmsh makes them
+PER_VOLUME = 5.0  # tetrahedra in the cube of the size, as gmsh makes them where sizes grow
 REACH = 2.0  # diameters around a panel beyond which it does not matter
 USUAL = 0.08  # h for which the growth is made, in diameters
 THINNEST = 12.0  # thicknesses of a blunt edge that a cell beside it may be long, at h = 0.08 d
