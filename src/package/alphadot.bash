@@ -9,7 +9,7 @@ _alphadot() {
   elif ((COMP_CWORD == 1)); then
     words=$(alphadot --help 2>/dev/null | awk '/^Subcommands:/ {verbs = 1; next} verbs && /^  [a-z]/ {print $1}')
   elif [[ $current == -* ]]; then
-    words=$(alphadot "$verb" --help 2>/dev/null | grep -oE -- '--[a-z]+' | sort -u)
+    words=$(alphadot "$verb" --help 2>/dev/null | grep -oE -- '--[a-z]+(-[a-z]+)*' | sort -u)
   else
     compopt -o default
   fi

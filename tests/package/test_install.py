@@ -56,7 +56,7 @@ class Install(unittest.TestCase):
         self.assertIn("watch", verbs)
         for verb in verbs:
             self.assertRegex(text, rf"\n   {verb}\n")
-            for option in re.findall(r"--[a-z]+", ran("alphadot", verb, "--help", env=self.environment)):
+            for option in re.findall(r"--[a-z]+(?:-[a-z]+)*", ran("alphadot", verb, "--help", env=self.environment)):
                 self.assertIn(option, text)
         for key in re.findall(r"^  ([a-z_]+) ", ran("alphadot", "keys", env=self.environment), re.MULTILINE):
             self.assertRegex(text, rf"\b{key}\b")
@@ -70,6 +70,7 @@ class Install(unittest.TestCase):
     def test_completion(self) -> None:
         self.assertEqual(self.completions("de"), ["derivatives", "derive"])
         self.assertEqual(self.completions("run", "--re"), ["--restart"])
+        self.assertEqual(self.completions("mesh", "--no"), ["--no-picture"])
         self.assertEqual(self.completions("run", "case.toml", "--set", "freestream.m"), ["freestream.mach="])
 
     def test_scripts(self) -> None:
