@@ -7,7 +7,8 @@ converges. An entry of a run that says "converged" must agree within its printed
 a case whose steady flows do not come to rest has no reference and is counted as such. Then the same bodies with a defect planted: a
 march cut short, a linear solve cut short, a cell nearly without volume. Those must not say "converged", or be right.
 
-Exit code 0 when no promise is broken. Writes consistency.csv into --out; --jobs runs at a time, a second or two each.
+Exit code 0 when no promise is broken. Appends each case's rows to consistency.csv in --out as it ends; the same command again goes on
+where it was stopped (another --seed or --program needs another --out). --jobs cases at a time, some ten seconds each.
 """
 
 from __future__ import annotations
@@ -20,8 +21,9 @@ import os
 import random
 import subprocess
 import sys
+import time
 from collections import Counter
-from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import ThreadPoolExecutor, as_completed
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -48,6 +50,9 @@ BODIES = {
     "wing": Body("delta_wing/wing.toml", ("gmsh",), (1.5, 2.0, 2.5, 3.0)),
 }
 SCHEMES = ({}, {"steady.scheme": "lu_sgs"}, {"steady.krylov_directions": 20}, {"steady.sweeps": 2}, {"derivatives.method": "march"})
+COLUMNS = ("number", "defect", "body", "freestream.mach", "freestream.alpha", "space.flux", "space.limiter", "space.gradient",
+           "steady.scheme", "steady.krylov_directions", "steady.sweeps", "derivatives.method", "entry", "value", "eight_decades", "difference",
+           "error", "printed", "doubt", "verdict")  # fmt: skip
 OTHER = {"steady.sweeps": 3, "steady.cfl_max": 200, "steady.cfl_start": 10, "steady.orders": 10}
 
 
@@ -174,6 +179,10 @@ def check(number: int, program: str, folder: Path, seed: int, defect: str) -> li
     return rows
 
 
+def described(row: dict[str, object]) -> str:
+    return ", ".join(f"{key} {value}" for key, value in row.items() if value not in ("", None))
+
+
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--program", default=str(ROOT / "build" / "alphadot"))
@@ -188,23 +197,36 @@ def main() -> None:
         mesh_of(name, arguments.out)
     work = [(number, "none") for number in range(arguments.cases)]
     work += [(number, defect) for defect in ("march", "solve", "cell") for number in range(arguments.cases // 4)]
-    rows = []
-    with ThreadPoolExecutor(arguments.jobs) as pool:
+    table = arguments.out / "consistency.csv"
+    rows: list[dict[str, object]] = []
+    if table.exists():
+        with open(table, newline="") as file:
+            rows = list(csv.DictReader(file))
+        ended = {(int(row["number"]), row["defect"]) for row in rows}
+        work = [item for item in work if item not in ended]
+        print(f"{table}: {len(ended)} cases have ended, {len(work)} are left", file=sys.stderr)
+    started = time.monotonic()
+    with ThreadPoolExecutor(arguments.jobs) as pool, open(table, "a", newline="") as file:
+        writer = csv.DictWriter(file, COLUMNS)
+        if not rows:
+            writer.writeheader()
         jobs = [pool.submit(check, number, arguments.program, arguments.out, arguments.seed, defect) for number, defect in work]
-        for done, job in enumerate(jobs, 1):
-            rows += job.result()
-            if sys.stderr.isatty() or done % 20 == 0:
-                print(f"{done} of {len(jobs)} cases, {len(rows)} promises", file=sys.stderr)
-    names = list(dict.fromkeys(key for row in rows for key in row))
-    with open(arguments.out / "consistency.csv", "w", newline="") as file:
-        writer = csv.DictWriter(file, names)
-        writer.writeheader()
-        writer.writerows(rows)
+        for done, job in enumerate(as_completed(jobs), 1):
+            found = job.result()
+            writer.writerows(found)
+            file.flush()
+            rows += found
+            for row in found:
+                if row["verdict"].startswith("BROKEN"):
+                    print(described(row), file=sys.stderr)
+            if sys.stderr.isatty() or done % 10 == 0:
+                left = (time.monotonic() - started) / done * (len(jobs) - done) / 60
+                print(f"{done} of {len(jobs)} cases, {len(rows)} promises, {left:.0f} min left", file=sys.stderr)
     for (defect, verdict), count in sorted(Counter((row["defect"], row["verdict"]) for row in rows).items()):
         print(f"defect {defect:6} {verdict:40} {count}")
     broken = [row for row in rows if row["verdict"].startswith("BROKEN")]
     for row in broken[:20]:
-        print({key: value for key, value in row.items() if value != ""})
+        print(described(row))
     sys.exit(1 if broken else 0)
 
 

@@ -3,11 +3,12 @@
 
 from __future__ import annotations
 
+import subprocess
 import tempfile
 import unittest
 from pathlib import Path
 
-from program import CASE, RANKS, box, gmsh_text, run, write_case
+from program import CASE, PROGRAM, RANKS, box, gmsh_text, run, write_case
 
 
 class Faults(unittest.TestCase):
@@ -178,6 +179,19 @@ class Faults(unittest.TestCase):
                 outcome = run(self.folder, *arguments)
                 self.assertEqual(outcome.codes, [2] * RANKS)
                 self.assertIn("no number from", outcome.out + outcome.err)
+
+    @unittest.skipIf(RANKS > 1, "the launcher would feel the limit too")
+    def test_memory_that_does_not_suffice(self) -> None:
+        """Some of these limits are met while the mesh is read, some in the march."""
+        write_case(self.folder, CASE, gmsh_text(*box(24)))
+        for megabytes in (150, 175, 200):
+            with self.subTest(megabytes=megabytes):
+                limit = f"ulimit -v {megabytes << 10}; exec {PROGRAM} run case.toml --overwrite"
+                done = subprocess.run(["/bin/sh", "-c", limit], cwd=self.folder, capture_output=True, text=True, timeout=60)
+                self.assertEqual(done.returncode, 1, done.stderr)
+                self.assertEqual(done.stderr.count("error"), 1, done.stderr)
+                self.assertIn("the memory does not suffice", done.stderr)
+                self.assertIn("use more ranks", done.stderr)
 
     def test_wrong_command_line(self) -> None:
         for arguments in ((), ("fly",), ("run",), ("run", "case.toml", "--fast")):
