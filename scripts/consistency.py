@@ -3,7 +3,7 @@
 
 Draws cases over body, Mach number, incidence, flux, limiter, gradient and scheme (seeded), and compares the derivatives by alpha and by
 q, loads CA, CN and Cm, with central differences of steady flows at a little more and less incidence or rate, which another scheme
-converges. An entry of a run that says "converged" must agree within its printed uncertainty and what the difference itself may be off;
+converges with its limiter never frozen. An entry of a run that says "converged" must agree within its printed uncertainty and what the difference itself may be off;
 a case whose steady flows do not come to rest has no reference and is counted as such. Then the same bodies with a defect planted: a
 march cut short, a linear solve cut short, a cell nearly without volume. Those must not say "converged", or be right.
 
@@ -53,14 +53,14 @@ SCHEMES = ({}, {"steady.scheme": "lu_sgs"}, {"steady.krylov_directions": 20}, {"
 COLUMNS = ("number", "defect", "body", "freestream.mach", "freestream.alpha", "space.flux", "space.limiter", "space.gradient",
            "steady.scheme", "steady.krylov_directions", "steady.sweeps", "derivatives.method", "entry", "value", "eight_decades", "difference",
            "error", "printed", "doubt", "verdict")  # fmt: skip
-OTHER = {"steady.sweeps": 3, "steady.cfl_max": 200, "steady.cfl_start": 10, "steady.orders": 10}
+OTHER = {"space.freeze_orders": 0, "steady.sweeps": 3, "steady.cfl_max": 200, "steady.cfl_start": 10, "steady.orders": 10}
 
 
 def mesh_of(name: str, folder: Path) -> Path:
     body, path = BODIES[name], folder / f"{name}.msh"
     if not path.exists():
         if body.make[0] == "gmsh":
-            line = ["gmsh", "-3", "-clscale", "1.6", "-format", "msh22", str(CASES / "delta_wing" / "wing.geo"), "-o", str(path)]
+            line = ["gmsh", "-3", "-clscale", "2.4", "-format", "msh22", str(CASES / "delta_wing" / "wing.geo"), "-o", str(path)]
         else:
             line = ["/usr/bin/python3", str(CASES / body.make[0]), *body.make[1:], "-o", str(path)]
         subprocess.run(line, check=True, capture_output=True)
