@@ -3,9 +3,10 @@
 
 Draws cases over body, Mach number, incidence, flux, limiter, gradient and scheme (seeded), and compares the derivatives by alpha and by
 q, loads CA, CN and Cm, with central differences of steady flows at a little more and less incidence or rate, which another scheme
-converges with its limiter never frozen. An entry of a run that says "converged" must agree within its printed uncertainty and what the difference itself may be off;
-a case whose steady flows do not come to rest has no reference and is counted as such. Then the same bodies with a defect planted: a
-march cut short, a linear solve cut short, a cell nearly without volume. Those must not say "converged", or be right.
+converges and which never freeze the limiter (a flow with frozen factors is another one each time). An entry of a run that says
+"converged" must agree within its printed uncertainty and what the difference itself may be off; a case whose steady flows do not come
+to rest has no reference and is counted as such. Then the same bodies with a defect planted: a march cut short, a linear solve cut
+short, a cell nearly without volume. Those must not say "converged", or be right.
 
 Exit code 0 when no promise is broken. Appends each case's rows to consistency.csv in --out as it ends; the same command again goes on
 where it was stopped (another --seed or --program needs another --out). --jobs cases at a time, some ten seconds each.
