@@ -7,7 +7,7 @@
 
 #include "derivatives/block_solve.hpp"
 #include "derivatives/free_linearisation.hpp"
-#include "euler/state_change.hpp"
+#include "derivatives/mass_term.hpp"
 #include "linear/shape_transpose.hpp"
 #include "space/wave_speed.hpp"
 
@@ -16,16 +16,6 @@ namespace alphadot {
 namespace {
 
 using Field = std::vector<Five<Real>>;
-
-/// Adds V (dU/dW)^T y to `image`.
-void add_transposed_mass_term(const ImplicitIteration& iteration, std::span<const Conserved<Real>> y,
-                              std::span<Primitive<Real>> image) {
-  const Subdomain& domain = iteration.discretization().domain();
-  for (std::size_t cell = 0; cell < image.size(); ++cell)
-    image[cell] +=
-        domain.volume[cell] * conserved_change_transposed(iteration.flow()[static_cast<Index>(cell)], y[cell],
-                                                          iteration.discretization().gamma());
-}
 
 constexpr std::ptrdiff_t numbers_of_change = 9;
 
@@ -52,6 +42,7 @@ Real dot_product(std::span<const Five<Real>> a, std::span<const Five<Real>> b) {
 template <int N>
 class AdjointOperator {
  public:
+  static constexpr std::size_t parts = 1;
   static constexpr auto transposed = Transposed::yes;
 
   AdjointOperator(ImplicitIteration& iteration, const Linearisation& linearisation,
@@ -106,7 +97,6 @@ Adjoint adjoint_of(const AdjointProblem& problem, Field field, BlockRecord recor
   auto next = all.begin();
   for (auto& products : record.functionals)
     for (Real& product : products) product = *next++;
-  constexpr Real of_other_components = 0.05;
   auto error = remaining_error(record.norms, record.functionals);
   std::vector<Real> sensitivity;  // dJ/dc = J_c - psi . R_c
   Real largest = 0;

@@ -26,6 +26,7 @@ struct BlockProblem {
   std::string name;
   Real orders;  ///< decades that its norm is to drop by
   std::span<const Five<Real>> guess = {};
+  Real reference_norm = 0;  ///< that the decades count from; 0: the norm at the start
 };
 
 /// The way of one problem to its solution: linear functionals of it (of this rank only) and the norm of the
@@ -33,13 +34,16 @@ struct BlockProblem {
 struct BlockRecord {
   std::vector<std::vector<Real>> functionals;
   std::vector<Real> norms;
-  Real drop() const { return norms.back() / std::max(norms.front(), Real{1e-300}); }
+  Real reference_norm = 0;  ///< as of the problem
+  Real drop() const {
+    return norms.back() / std::max(reference_norm > 0 ? reference_norm : norms.front(), Real{1e-300});
+  }
 };
 
 /// How far the latest of the functionals, over all ranks, may be from those of the solution: as many times
 /// the residual as those of any earlier iteration were from the latest. The ratio differs between iterations,
 /// since residuals in some cells matter more to a functional than in others; the largest one counts, and
-/// twice, for it is a sample.
+/// twice, for it is a sample. Where the residual has not even halved, nothing of a functional is known.
 inline std::vector<Real> remaining_error(std::span<const Real> norms,
                                          std::span<const std::vector<Real>> functionals) {
   constexpr Real safety = 2, much_larger = 2;
@@ -47,20 +51,31 @@ inline std::vector<Real> remaining_error(std::span<const Real> norms,
   const auto& latest = functionals.back();
   std::vector<Real> out(latest.size());
   for (std::size_t i = 0; i < out.size(); ++i) {
-    if (norms.size() == 1) out[i] = std::abs(latest[i]);
-    for (std::size_t j = 0; j + 1 < norms.size(); ++j)
-      if (norms[j] >= much_larger * last)
-        out[i] =
-            std::max(out[i], safety * last / (norms[j] - last) * std::abs(functionals[j][i] - latest[i]));
+    bool has_sample = false;
+    Real largest = std::abs(latest[i]);
+    for (std::size_t j = 0; j + 1 < norms.size(); ++j) {
+      const Real change = std::abs(functionals[j][i] - latest[i]);
+      largest = std::max(largest, change);
+      if (!(norms[j] >= much_larger * last)) continue;
+      has_sample = true;
+      out[i] = std::max(out[i], safety * last / (norms[j] - last) * change);
+    }
+    if (!has_sample) out[i] = safety * largest;
   }
   return out;
 }
 
+/// A component of a result that is small, or zero by symmetry, is no better solved for than the others: it
+/// may be off by this share of the largest one, times the relative residual.
+inline constexpr Real of_other_components = 0.05;
+
 /// N problems solved together by block GMRES with the implicit scheme on the right, so that what it makes
 /// small is the true residual, or by marching with that scheme. Every application of the operator serves all
 /// problems, and all of them look along the directions of all. The operator is a class with
-///   apply(fields, images, with_source)   images = A fields, or A fields + b; [owned_cells] each
-///   functionals(k)                       of problem k's field in the latest apply(), of this rank
+///   parts                                of a field: 1, or 2 when it is complex, the imaginary one second
+///   apply(fields, images, with_source)   images = A fields, or A fields + b; [parts * owned_cells] each
+///   functionals(k)                       of problem k's field in the latest apply(), of this rank; of a
+///                                        complex field first all real parts, then all imaginary ones
 ///   scale(image, out), unscale(in, out)  D of the norm |D (A U + b)| and its inverse
 ///   transposed                           Transposed::yes or no, for the preconditioner
 template <int N, class Operator>
@@ -69,6 +84,7 @@ class BlockSolve {
   using Field = std::vector<Five<Real>>;
   using Fields = std::array<std::span<const Five<Real>>, N>;
   using Images = std::array<std::span<Five<Real>>, N>;
+  static constexpr std::size_t parts = Operator::parts;
 
   BlockSolve(Operator& of, ImplicitIteration& iteration, const Conditions<Real>& conditions,
              std::array<BlockProblem, N> problems, const DerivativeSettings& settings,
@@ -78,12 +94,12 @@ class BlockSolve {
         problems_(std::move(problems)),
         settings_(settings),
         go_on_(go_on),
-        space_(static_cast<std::size_t>(iteration.discretization().domain().owned_cells), settings.directions,
+        cells_(static_cast<std::size_t>(iteration.discretization().domain().owned_cells)),
+        space_(parts * cells_, static_cast<int>(parts) * settings.directions,
                [this](std::vector<Real>& numbers) { iteration_.sum(numbers); }),
         preconditioner_(iteration, conditions, Operator::transposed) {
-    const auto cells = static_cast<std::size_t>(iteration.discretization().domain().owned_cells);
     for (auto* arrays : {&fields_, &images_, &corrections_, &defects_})
-      for (Field& array : *arrays) array.resize(cells);
+      for (Field& array : *arrays) array.resize(parts * cells_);
     begin();
   }
 
@@ -105,6 +121,7 @@ class BlockSolve {
       std::ranges::copy(problems_[k].guess, fields_[k].begin());
     }
     records_ = {};
+    for (std::size_t k = 0; k < N; ++k) records_[k].reference_norm = problems_[k].reference_norm;
   }
 
   /// The defects D (A U + b) of all problems at their present fields; functionals and norms into the records,
@@ -144,17 +161,24 @@ class BlockSolve {
 
   /// corrections_ = -P^-1 (A U + b), from the defects; images_ serves as a buffer.
   void precondition() {
-    std::array<LinearSystem, N> systems;
+    std::array<LinearSystem, parts * N> systems;
     for (std::size_t k = 0; k < N; ++k) {
       operator_.unscale(defects_[k], images_[k]);
-      systems[k] = {images_[k], corrections_[k]};
+      for (std::size_t part = 0; part < parts; ++part)
+        systems[parts * k + part] = {std::span(images_[k]).subspan(part * cells_, cells_),
+                                     std::span(corrections_[k]).subspan(part * cells_, cells_)};
     }
     preconditioner_.solve(systems);
   }
 
+  /// A good guess must improve by a decade too: how its error reaches the functionals shows only then.
   bool all_dropped() const {
-    for (std::size_t k = 0; k < N; ++k)
-      if (records_[k].drop() > std::pow(10.0, -problems_[k].orders)) return false;
+    constexpr Real of_guess = 0.1;
+    for (std::size_t k = 0; k < N; ++k) {
+      const BlockRecord& record = records_[k];
+      if (record.drop() > std::pow(10.0, -problems_[k].orders)) return false;
+      if (record.reference_norm > 0 && record.norms.back() > of_guess * record.norms.front()) return false;
+    }
     return true;
   }
   Real largest_norm() const {
@@ -232,7 +256,27 @@ class BlockSolve {
       operator_.scale(images_[k], images_[k]);
       candidates.push_back({corrections_[k], images_[k], operator_.functionals(k)});
     }
-    space_.add(candidates);
+    if constexpr (parts == 2) {
+      // Shares are real numbers: with each direction comes the one that is i times it, at no application.
+      std::array<std::array<Field, 2>, N> turned;
+      for (std::size_t k = 0; k < N; ++k) {
+        turned[k] = {times_i(corrections_[k]), times_i(images_[k])};
+        candidates.push_back({turned[k][0], turned[k][1], times_i(candidates[k].functionals)});
+      }
+      space_.add(candidates);
+    } else {
+      space_.add(candidates);
+    }
+  }
+
+  /// (real, imaginary) -> (-imaginary, real)
+  template <class T>
+  static std::vector<T> times_i(const std::vector<T>& field) {
+    std::vector<T> out(field.size());
+    const auto half = static_cast<std::ptrdiff_t>(field.size() / 2);
+    std::transform(field.begin() + half, field.end(), out.begin(), [](const T& x) { return Real(-1) * x; });
+    std::copy(field.begin(), field.begin() + half, out.begin() + half);
+    return out;
   }
 
   Operator& operator_;
@@ -240,6 +284,7 @@ class BlockSolve {
   std::array<BlockProblem, N> problems_;
   DerivativeSettings settings_;
   const std::function<bool()>& go_on_;
+  std::size_t cells_;
   KrylovBasis space_;
   Preconditioner preconditioner_;
   std::array<BlockRecord, N> records_;

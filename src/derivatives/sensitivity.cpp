@@ -5,34 +5,19 @@
 
 #include "derivatives/block_solve.hpp"
 #include "derivatives/free_linearisation.hpp"
-#include "euler/state_change.hpp"
+#include "derivatives/loads.hpp"
+#include "derivatives/mass_term.hpp"
 #include "linear/cell_scaling.hpp"
 
 namespace alphadot {
 
 namespace {
 
-/// Adds V (dU/dW) w to `image`: the change of the conserved state that goes with a change w of the primitive
-/// one.
-void add_mass_term(const ImplicitIteration& iteration, std::span<const Primitive<Real>> change,
-                   std::span<Conserved<Real>> image) {
-  const Subdomain& domain = iteration.discretization().domain();
-  for (std::size_t cell = 0; cell < image.size(); ++cell)
-    image[cell] += domain.volume[cell] * conserved_change(iteration.flow()[static_cast<Index>(cell)],
-                                                          change[cell], iteration.discretization().gamma());
-}
-
-/// Norms of force and moment in every component: a component that is small, or zero by symmetry, is no better
-/// solved for than the others.
-Load size(const Load& load) {
-  const Real force = norm(load.force), moment = norm(load.moment);
-  return {{force, force, force}, {moment, moment, moment}};
-}
-
 /// The tangent of the residual with the problems' sources, as a block solve wants it.
 template <int N>
 class ForwardOperator {
  public:
+  static constexpr std::size_t parts = 1;
   static constexpr auto transposed = Transposed::no;
 
   ForwardOperator(ImplicitIteration& iteration, const Linearisation& linearisation,
@@ -49,7 +34,7 @@ class ForwardOperator {
     tangent_.apply(fields, changes, images);
     loads_ = tangent_.loads();
     for (std::size_t k = 0; with_source && k < N; ++k) {
-      if (!problems_[k].rate.empty()) add_mass_term(iteration_, problems_[k].rate, images[k]);
+      if (!problems_[k].rate.empty()) add_mass_term(iteration_, 1, problems_[k].rate, images[k]);
       for (std::size_t cell = 0; cell < problems_[k].defect.size(); ++cell)
         images[k][cell] += problems_[k].defect[cell];
     }
@@ -83,10 +68,9 @@ Sensitivity sensitivity_of(const SensitivityProblem& problem, std::vector<Primit
   }
   out.relative_residual = record.drop();
   out.iterations = iterations;
-  constexpr Real of_other_components = 0.05;
   const Real share = of_other_components * out.relative_residual + problem.rate_residual;
   out.total_error =
-      loads_of(remaining_error(record.norms, record.functionals)).front() + share * size(out.total);
+      loads_of(remaining_error(record.norms, record.functionals)).front() + share * largest_of(out.total);
   return out;
 }
 

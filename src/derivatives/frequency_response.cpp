@@ -1,0 +1,123 @@
+#include "derivatives/frequency_response.hpp"
+
+#include <cmath>
+#include <utility>
+
+#include "derivatives/block_solve.hpp"
+#include "derivatives/free_linearisation.hpp"
+#include "derivatives/loads.hpp"
+#include "derivatives/mass_term.hpp"
+#include "linear/cell_scaling.hpp"
+
+namespace alphadot {
+
+namespace {
+
+/// A + i omega M with the problem's source, as a block solve wants it. Both parts of the field pass through
+/// one tangent.
+class FrequencyOperator {
+ public:
+  static constexpr std::size_t parts = 2;
+  static constexpr auto transposed = Transposed::no;
+
+  FrequencyOperator(ImplicitIteration& iteration, const Linearisation& linearisation,
+                    const FrequencyProblem& problem)
+      : iteration_(iteration),
+        problem_(problem),
+        scaling_(iteration.discretization(), iteration.flow(), linearisation.conditions()),
+        tangent_(linearisation, iteration.moment_center()),
+        cells_(static_cast<std::size_t>(iteration.discretization().domain().owned_cells)) {}
+
+  void apply(const std::array<std::span<const Primitive<Real>>, 1>& fields,
+             const std::array<std::span<Conserved<Real>>, 1>& images, bool with_source) {
+    const auto real = fields[0].first(cells_), imaginary = fields[0].last(cells_);
+    const auto real_image = images[0].first(cells_), imaginary_image = images[0].last(cells_);
+    tangent_.apply({real, imaginary}, {with_source ? problem_.change : ConditionsChange{}, {}},
+                   {real_image, imaginary_image});
+    loads_ = tangent_.loads();
+    add_mass_term(iteration_, -problem_.omega, imaginary, real_image);
+    add_mass_term(iteration_, problem_.omega, real, imaginary_image);
+  }
+  std::vector<Real> functionals(std::size_t) const {
+    auto out = numbers_of(loads_[0]);
+    const auto imaginary = numbers_of(loads_[1]);
+    out.insert(out.end(), imaginary.begin(), imaginary.end());
+    return out;
+  }
+  void scale(std::span<const Conserved<Real>> image, std::span<Primitive<Real>> out) const {
+    scaling_.scale(image.first(cells_), out.first(cells_));
+    scaling_.scale(image.last(cells_), out.last(cells_));
+  }
+  void unscale(std::span<const Primitive<Real>> scaled, std::span<Conserved<Real>> out) const {
+    scaling_.unscale(scaled.first(cells_), out.first(cells_));
+    scaling_.unscale(scaled.last(cells_), out.last(cells_));
+  }
+
+  /// |D b|. Collective.
+  Real source_norm() {
+    std::vector<Five<Real>> zero(2 * cells_), image(2 * cells_);
+    apply({zero}, {image}, true);
+    scale(image, image);
+    std::vector<Real> squares{square(image)};
+    iteration_.sum(squares);
+    return std::sqrt(squares[0]);
+  }
+
+ private:
+  ImplicitIteration& iteration_;
+  const FrequencyProblem& problem_;
+  CellScaling scaling_;
+  Tangent<2> tangent_;
+  std::size_t cells_;
+  std::array<std::vector<Load>, 2> loads_;
+};
+
+FrequencyResponse response_of(std::vector<Primitive<Real>> field, BlockRecord record, int iterations,
+                              const Communicator& comm) {
+  FrequencyResponse out;
+  out.field = std::move(field);
+  for (auto& functionals : record.functionals) {
+    comm.sum(functionals);
+    const auto loads = loads_of(functionals);
+    const auto patches = static_cast<std::ptrdiff_t>(loads.size() / 2);
+    out.loads = {std::vector(loads.begin(), loads.begin() + patches),
+                 std::vector(loads.begin() + patches, loads.end())};
+    out.total = {total_of(out.loads[0]), total_of(out.loads[1])};
+    functionals = numbers_of(out.total);
+  }
+  out.relative_residual = record.drop();
+  out.iterations = iterations;
+  // The field of zeros, whose residual is the source, is one more sample: the only one from a good guess.
+  record.norms.insert(record.norms.begin(), record.reference_norm);
+  record.functionals.insert(record.functionals.begin(),
+                            std::vector<Real>(record.functionals.front().size(), 0));
+  const auto remaining = loads_of(remaining_error(record.norms, record.functionals));
+  const Real share = of_other_components * out.relative_residual;
+  for (std::size_t part = 0; part < 2; ++part)
+    out.total_error[part] = remaining[part] + share * (largest_of(out.total[0]) + largest_of(out.total[1]));
+  return out;
+}
+
+}  // namespace
+
+FrequencySolver::FrequencySolver(ImplicitIteration& iteration, const Conditions<Real>& conditions,
+                                 const DerivativeSettings& settings, std::function<bool()> go_on)
+    : iteration_(iteration),
+      linearisation_(linearise_with_free_limiter(iteration, conditions)),
+      settings_(settings),
+      go_on_(std::move(go_on)) {
+  settings_.method = SensitivityMethod::gmres;
+}
+
+bool FrequencySolver::solve(const FrequencyProblem& problem, FrequencyResponse& out) {
+  FrequencyOperator shifted(iteration_, linearisation_, problem);
+  BlockSolve<1, FrequencyOperator> way(
+      shifted, iteration_, linearisation_.conditions(),
+      {BlockProblem{problem.name, settings_.orders, problem.guess, shifted.source_norm()}}, settings_,
+      go_on_);
+  if (!way.solve()) return false;
+  out = response_of(std::move(way.field(0)), way.record(0), way.iterations(), iteration_.communicator());
+  return true;
+}
+
+}  // namespace alphadot
