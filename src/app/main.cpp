@@ -13,6 +13,7 @@
 #include "app/adjoint.hpp"
 #include "app/centers.hpp"
 #include "app/companion.hpp"
+#include "app/frequency.hpp"
 #include "app/verbs.hpp"
 #include "core/error.hpp"
 #include "core/log.hpp"
@@ -131,6 +132,17 @@ int main(int argc, char** argv) {
       ->delimiter(',');
   const auto* adjoint_restart = add_run_arguments(adjoint, arguments);
 
+  std::vector<Real> reduced_frequencies;
+  auto& frequency = *app.add_subcommand(
+      "frequency", "Derivatives at finite frequency: one complex linear solve a variable and frequency");
+  add_case_arguments(frequency, arguments);
+  frequency.add_option("--k", reduced_frequencies, "Reduced frequencies omega length / (2 V), e.g. 0.01,0.1")
+      ->required()
+      ->type_name("K")
+      ->delimiter(',')
+      ->check(number_from(1e-6, 1e3));
+  const auto* frequency_restart = add_run_arguments(frequency, arguments);
+
   auto& check = *app.add_subcommand("check", "Check case and mesh without running");
   add_case_arguments(check, arguments);
   bool whole_case = false;
@@ -188,7 +200,7 @@ int main(int argc, char** argv) {
     if (comm.is_root()) code = app.exit(error);
     return code == 0 ? 0 : 2;
   }
-  for (const auto* restart : {run_restart, derivatives_restart, adjoint_restart})
+  for (const auto* restart : {run_restart, derivatives_restart, adjoint_restart, frequency_restart})
     if (*restart) arguments.restart = restart->results().empty() ? "" : restart->results().front();
   set_up_log(comm.is_root(), quiet);
 
@@ -196,6 +208,7 @@ int main(int argc, char** argv) {
     if (run) return run_verb(arguments, comm);
     if (derivatives) return derivatives_verb(arguments, comm);
     if (adjoint) return adjoint_verb(arguments, loads, comm);
+    if (frequency) return frequency_verb(arguments, reduced_frequencies, comm);
     if (check) return check_verb(arguments, whole_case, comm);
     if (partition) return partition_verb(cut, comm);
     if (derive) return derive_verb(derivation, comm);

@@ -76,14 +76,16 @@ FrequencyResponse response_of(std::vector<Primitive<Real>> field, BlockRecord re
                               const Communicator& comm) {
   FrequencyResponse out;
   out.field = std::move(field);
+  std::ptrdiff_t patches = 0;
   for (auto& functionals : record.functionals) {
     comm.sum(functionals);
-    const auto loads = loads_of(functionals);
-    const auto patches = static_cast<std::ptrdiff_t>(loads.size() / 2);
+    auto loads = loads_of(functionals);
+    patches = static_cast<std::ptrdiff_t>(loads.size() / 2);
     out.loads = {std::vector(loads.begin(), loads.begin() + patches),
                  std::vector(loads.begin() + patches, loads.end())};
     out.total = {total_of(out.loads[0]), total_of(out.loads[1])};
-    functionals = numbers_of(out.total);
+    loads.insert(loads.end(), out.total.begin(), out.total.end());
+    functionals = numbers_of(loads);
   }
   out.relative_residual = record.drop();
   out.iterations = iterations;
@@ -91,10 +93,12 @@ FrequencyResponse response_of(std::vector<Primitive<Real>> field, BlockRecord re
   record.norms.insert(record.norms.begin(), record.reference_norm);
   record.functionals.insert(record.functionals.begin(),
                             std::vector<Real>(record.functionals.front().size(), 0));
-  const auto remaining = loads_of(remaining_error(record.norms, record.functionals));
+  auto remaining = loads_of(remaining_error(record.norms, record.functionals));
   const Real share = of_other_components * out.relative_residual;
-  for (std::size_t part = 0; part < 2; ++part)
-    out.total_error[part] = remaining[part] + share * (largest_of(out.total[0]) + largest_of(out.total[1]));
+  for (Load& error : remaining) error += share * (largest_of(out.total[0]) + largest_of(out.total[1]));
+  out.loads_error = {std::vector(remaining.begin(), remaining.begin() + patches),
+                     std::vector(remaining.begin() + patches, remaining.begin() + 2 * patches)};
+  out.total_error = {remaining[remaining.size() - 2], remaining.back()};
   return out;
 }
 

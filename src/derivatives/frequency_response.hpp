@@ -28,10 +28,10 @@ struct FrequencyProblem {
 };
 
 struct FrequencyResponse {
-  std::vector<Primitive<Real>> field;      ///< U, real part and then imaginary one, [2 owned_cells]
-  std::array<std::vector<Load>, 2> loads;  ///< change of the load of every patch, over all ranks
-  std::array<Load, 2> total, total_error;  ///< real, imaginary; as those of a Sensitivity
-  Real relative_residual = 1;              ///< |D (A U + i omega M U + b)| / |D b|
+  std::vector<Primitive<Real>> field;  ///< U, real part and then imaginary one, [2 owned_cells]
+  std::array<std::vector<Load>, 2> loads, loads_error;  ///< of every patch, over all ranks
+  std::array<Load, 2> total, total_error;               ///< real, imaginary; as those of a Sensitivity
+  Real relative_residual = 1;                           ///< |D (A U + i omega M U + b)| / |D b|
   int iterations = 0;
 };
 
