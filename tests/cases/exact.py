@@ -10,6 +10,7 @@ import json
 import os
 import subprocess
 import unittest
+from collections.abc import Sequence
 from pathlib import Path
 
 CASES = Path(__file__).resolve().parents[2] / "cases"
@@ -17,7 +18,8 @@ MESHES = Path(os.environ["MESHES"])
 
 
 def run(
-    folder: Path, verb: str, case: str, mesh: str, settings: dict[str, object], start: Path | None = None, code: int = 0
+    folder: Path, verb: str, case: str, mesh: str, settings: dict[str, object], start: Path | None = None, code: int = 0,
+    options: Sequence[str] = (),
 ) -> dict:
     """The result of `alphadot verb cases/<case>` on a mesh of MESHES, in `folder`; `settings` replace keys of the case.
 
@@ -29,7 +31,7 @@ def run(
         overrides += ["--set", f"{key}={value}"]
     if start:
         overrides += ["--restart", max(start.glob("checkpoint_*.vtkhdf"))]
-    command = [os.environ["ALPHADOT"], verb, CASES / case, "--out", folder, "--quiet", *overrides]
+    command = [os.environ["ALPHADOT"], verb, CASES / case, "--out", folder, "--quiet", *overrides, *options]
     done = subprocess.run(command)
     if done.returncode != code:
         raise subprocess.CalledProcessError(done.returncode, command)

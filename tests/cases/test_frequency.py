@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""The limit of low frequency to second order beside plunges at two frequencies, on the sharp cone.
+"""Linear solves beside plunges at two frequencies, on the sharp cone: the limit of low frequency to second order, and either frequency.
 
 The loads in phase with alpha are X_alpha - k^2 X_alphaddot + O(k^4): their difference between two frequencies gives X_alphaddot by
 motions in time alone. It is some 1e-3 of the loads, so inner iterations must go on for longer than usual. The second-order backward
@@ -8,8 +8,11 @@ differences of the motion make its square of a frequency larger by 2/3 (omega dt
 
 from __future__ import annotations
 
+import cmath
+import math
 import tempfile
 import unittest
+from collections.abc import Sequence
 from pathlib import Path
 
 from exact import ExactCase, run
@@ -18,9 +21,9 @@ FREQUENCIES = (0.1, 0.2)
 
 
 class Frequency(ExactCase):
-    def derivatives(self, verb: str, case: str, settings: dict[str, object]) -> dict:
+    def derivatives(self, verb: str, case: str, settings: dict[str, object], options: Sequence[str] = ()) -> dict:
         with tempfile.TemporaryDirectory() as folder:
-            return run(Path(folder), verb, f"sharp_cone/{case}", "cone_tiny.msh", settings)["derivatives"]
+            return run(Path(folder), verb, f"sharp_cone/{case}", "cone_tiny.msh", settings, options=options)["derivatives"]
 
     def test_second_derivatives(self) -> None:
         linear = self.derivatives("derivatives", "derivatives.toml", {"derivatives.second_order": "true", "derivatives.orders": 5})
@@ -32,6 +35,17 @@ class Frequency(ExactCase):
             change = fast[f"{name}_alpha"]["value"] - slow[f"{name}_alpha"]["value"]
             found = -change / (FREQUENCIES[1] ** 2 - FREQUENCIES[0] ** 2)
             self.assert_close(f"{name}_alphaddot", found, linear[f"{name}_alphaddot"]["value"], 0.01)
+        options = ["--k", ",".join(map(str, FREQUENCIES))]
+        response = self.derivatives("frequency", "derivatives.toml", {}, options)
+        for k, plunge in zip(FREQUENCIES, (slow, fast), strict=True):
+            for name in ("CN", "Cm"):
+                linear_load, load = (
+                    complex(at(f"{name}_alpha")["value"], k * at(f"{name}_alphadot")["value"])
+                    for at in (lambda entry, k=k: response[f"{entry}, k = {k:g}"], plunge.__getitem__)
+                )
+                # 0.2 % of the modulus and 0.2 degrees; in Cm, a small difference, of that of CN times a length.
+                self.assert_close(f"{name} at k = {k}", abs(load), abs(linear_load), 0.002)
+                self.assertLess(abs(math.degrees(cmath.phase(load / linear_load))), 0.2, f"{name} at k = {k}")
 
 
 if __name__ == "__main__":

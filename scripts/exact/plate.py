@@ -1,0 +1,63 @@
+#!/usr/bin/python3
+"""An oscillating flat plate in supersonic flow: exact linear theory at any frequency.
+
+The potential above the plate is -(1/beta) times the integral over the downwash ahead, with the kernel exp(-i w s) J0(w s / M),
+w = omega c M^2 / (V beta^2) (I. E. Garrick & S. I. Rubinow, NACA Report 846, 1946); the pressure follows from it by Bernoulli's
+equation. Per radian, chord 1, reference length the chord: CN and Cm (nose up) for alpha and for q = theta_dot c / 2V, each about the
+axis x0.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+
+def bessel_j0(z: np.ndarray) -> np.ndarray:
+    """By the trapezoidal rule on its integral over half a turn, exact to round-off for the arguments here."""
+    angles = (np.arange(64) + 0.5) * math.pi / 64
+    return np.cos(z[..., None] * np.sin(angles)).mean(-1)
+
+
+@dataclass(frozen=True)
+class Response:
+    """Complex amplitudes; real: in phase."""
+
+    CN: complex
+    Cm: complex
+
+
+def oscillating_plate(mach: float, k: float, x0: float) -> dict[str, Response]:
+    """By Gauss's rule in x and in the integral of the potential; `k` = omega c / 2V."""
+    beta = math.sqrt(mach * mach - 1)
+    omega = 2 * k
+    w = omega * mach**2 / beta**2
+    nodes, weights = np.polynomial.legendre.leggauss(60)
+    nodes, weights = 0.5 * (nodes + 1), 0.5 * weights  # on 0 to 1
+
+    def potential(x: np.ndarray, angle: np.polynomial.Polynomial) -> np.ndarray:
+        """Above the plate, for a local incidence `angle(x)`."""
+        s = x[:, None] * nodes
+        kernel = np.exp(-1j * w * s) * bessel_j0(w * s / mach)
+        return x * ((angle(x[:, None] - s) * kernel) @ weights) / beta
+
+    out = {}
+    for name, angle in (("alpha", np.polynomial.Polynomial([1.0])), ("q", np.polynomial.Polynomial([-2 * x0, 2.0]))):
+        phi, at_end = potential(nodes, angle), potential(np.array([1.0]), angle)[0]
+        # Cp below less above: 4 (i omega phi + dphi/dx); the latter by parts.
+        force = 4 * (1j * omega * (phi @ weights) + at_end)
+        moment = 4 * (1j * omega * ((phi * (nodes - x0)) @ weights) + at_end * (1 - x0) - phi @ weights)
+        out[name] = Response(complex(force), complex(-moment))
+    return out
+
+
+if __name__ == "__main__":
+    print("# Oscillating flat plate, exact linear theory (Garrick & Rubinow 1946); chord 1, per rad; written by scripts/exact/plate.py")
+    print("Mach,k,x0,variable,CN_in_phase,CN_out_of_phase,Cm_in_phase,Cm_out_of_phase")
+    for mach in (1.58, 2.0, 2.5):
+        for k in (0.01, 0.1, 0.5, 1.0):
+            for name, found in oscillating_plate(mach, k, 0.0).items():
+                parts = (found.CN.real, found.CN.imag / k, found.Cm.real, found.Cm.imag / k)
+                print(f"{mach},{k},0,{name}," + ",".join(f"{part:.9f}" for part in parts))
