@@ -96,6 +96,16 @@ FrequencyResponse response_of(std::vector<Primitive<Real>> field, BlockRecord re
   auto remaining = loads_of(remaining_error(record.norms, record.functionals));
   const Real share = of_other_components * out.relative_residual;
   for (Load& error : remaining) error += share * (largest_of(out.total[0]) + largest_of(out.total[1]));
+  // What is left turns: of a load's parts either may be off by what both are.
+  const auto turn = [](Load& real, Load& imaginary) {
+    for (int axis = 0; axis < 3; ++axis) {
+      real.force[axis] = imaginary.force[axis] = std::hypot(real.force[axis], imaginary.force[axis]);
+      real.moment[axis] = imaginary.moment[axis] = std::hypot(real.moment[axis], imaginary.moment[axis]);
+    }
+  };
+  for (std::ptrdiff_t patch = 0; patch < patches; ++patch)
+    turn(*(remaining.begin() + patch), *(remaining.begin() + patches + patch));
+  turn(remaining[remaining.size() - 2], remaining.back());
   out.loads_error = {std::vector(remaining.begin(), remaining.begin() + patches),
                      std::vector(remaining.begin() + patches, remaining.begin() + 2 * patches)};
   out.total_error = {remaining[remaining.size() - 2], remaining.back()};

@@ -48,6 +48,9 @@ of the verb derivatives: for spreadsheets, readers of AVL's files and JSBSim
 .I adjoint.csv, adjoint.vtkhdf, surface_sensitivity.csv, surface_sensitivity.vtkhdf
 of the verb adjoint: derivatives; which cells, and which places of the walls, each load listens to
 .TP
+.I frequency.csv
+of the verb frequency: responses to oscillating variables, of the whole and of every wall
+.TP
 .I checkpoint_NNNNNN.vtkhdf
 what \-\-restart goes on from
 .TP

@@ -1,0 +1,69 @@
+#!/usr/bin/python3
+"""Draws what `alphadot frequency` has found: Bode and Nyquist diagrams of the loads.
+
+    scripts/bode.py RUN [RUN ...] [--of CN,Cm] [--by alpha] [--part total] [-o bode]
+
+One curve a run; the bars are the printed uncertainties. Needs Debian's python3-numpy and python3-matplotlib.
+"""
+
+from __future__ import annotations
+
+import argparse
+import csv
+import sys
+from pathlib import Path
+
+try:
+    import matplotlib.pyplot as plt
+    import numpy as np
+
+    from drawing import finish
+except ImportError as error:
+    sys.exit(f"bode.py: {error}; run scripts/install.sh, and then this with /usr/bin/python3")
+
+
+def rows_of(folder: Path) -> list[dict[str, str]]:
+    path = folder / "frequency.csv"
+    try:
+        with open(path, newline="") as file:
+            return list(csv.DictReader(line for line in file if not line.startswith("#")))
+    except OSError as error:
+        sys.exit(f"bode.py: {path}: {error.strerror}; give the folder of a run of `alphadot frequency`")
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("runs", nargs="+", type=Path, metavar="RUN", help="folder of `alphadot frequency`")
+    parser.add_argument("--of", default="CN,Cm", help="loads (default: CN,Cm)")
+    parser.add_argument("--by", default="alpha", help="variable that oscillates (default: alpha)")
+    parser.add_argument("--part", default="total", help="of the configuration: total, or a patch (default: total)")
+    parser.add_argument("-o", "--output", type=Path, default=Path("bode"), help="pictures without their suffix (default: bode)")
+    arguments = parser.parse_args()
+    loads = arguments.of.split(",")
+    figure, axes = plt.subplots(len(loads), 3, figsize=(13, 3.8 * len(loads)), squeeze=False, layout="constrained")
+    for run in arguments.runs:
+        rows = rows_of(run)
+        for (modulus, phase, nyquist), load in zip(axes, loads, strict=True):
+            mine = [row for row in rows if (row["part"], row["coefficient"], row["variable"]) == (arguments.part, load, arguments.by)]
+            if not mine:
+                sys.exit(f"bode.py: {run}/frequency.csv has no {load} by {arguments.by} of {arguments.part}")
+            k, real, lag, real_error, lag_error = (
+                np.array([float(row[name]) for row in mine])
+                for name in ("k", "in_phase", "out_of_phase", "in_phase_uncertainty", "out_of_phase_uncertainty")
+            )
+            response, error = real + 1j * k * lag, np.hypot(real_error, k * lag_error)
+            style = {"label": run.name, "marker": "o", "markersize": 3}
+            modulus.errorbar(k, np.abs(response), error, **style)
+            phase.errorbar(k, np.degrees(np.unwrap(np.angle(response))), np.degrees(error / np.abs(response)), **style)
+            nyquist.plot(response.real, response.imag, **style)
+            for at in {0, len(k) - 1}:
+                nyquist.annotate(f"k = {k[at]:g}", (response[at].real, response[at].imag), fontsize=8)
+            for plot, name in ((modulus, f"|{load}| per rad of {arguments.by}"), (phase, f"phase of {load}, degrees")):
+                plot.set(xscale="log", xlabel="k = ω l / 2V", ylabel=name)
+            nyquist.set(xlabel=f"{load} in phase", ylabel=f"{load} a quarter ahead")
+    finish(figure, arguments.output)
+    print(f"{arguments.output.with_suffix('.png')}, {arguments.output.with_suffix('.svg')}")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,98 @@
+"""The verb "frequency": joins the limit of low frequency, says what was not reached, goes on from its checkpoints.
+
+Environment: see program.py.
+"""
+
+from __future__ import annotations
+
+import csv
+import json
+import math
+import tempfile
+import unittest
+from pathlib import Path
+
+from program import CASE, RANKS, Outcome, box, gmsh_text, run, write_case
+
+
+class FrequencyTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls) -> None:
+        temporary = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(temporary.cleanup)
+        cls.folder = Path(temporary.name)
+        write_case(cls.folder, CASE, gmsh_text(*box(3)))
+
+    def run_as(self, code: int, verb: str, out: str, *arguments: str) -> Outcome:
+        done = run(self.folder, verb, "case.toml", "--out", out, *arguments)
+        self.assertEqual(done.codes, [code] * RANKS, done.err)
+        return done
+
+    def derivatives(self, out: str) -> dict[str, dict]:
+        return json.loads((self.folder / out / "result.json").read_text())["derivatives"]
+
+    def test_joins_the_limit(self) -> None:
+        """What the second order adds at k = 0.001 is 1e-6 of the derivatives, by the rate of a body one length long."""
+        self.run_as(0, "derivatives", "limit", "--set", "derivatives.orders=8")
+        self.run_as(0, "frequency", "slow", "--k", "0.001")
+        limit, slow = self.derivatives("limit"), self.derivatives("slow")
+        for name in [f"{load}_{by}" for load in ("CN", "Cm") for by in ("alpha", "q", "alphadot")] + ["CY_beta", "Cl_p", "Cn_r", "CY_betadot"]:
+            entry = slow[f"{name}, k = 0.001"]
+            allowed = entry["uncertainty"] + limit[name]["uncertainty"] + 1e-5 * abs(limit[name]["value"])
+            self.assertLessEqual(abs(entry["value"] - limit[name]["value"]), allowed, name)
+            self.assertLess(entry["uncertainty"], 0.01 * max(1, abs(entry["value"])), name)
+        both = slow["Cm_q, k = 0.001"]["value"] + slow["Cm_alphadot, k = 0.001"]["value"]
+        self.assertAlmostEqual(slow["Cm_q_plus_alphadot, k = 0.001"]["value"], both)
+
+    def test_table(self) -> None:
+        """Parts sum to the whole; modulus and phase are those of both parts; frequencies in order, each once."""
+        self.run_as(0, "frequency", "table", "--k", "0.5,0.1,0.5")
+        with open(self.folder / "table/frequency.csv") as file:
+            rows = list(csv.DictReader(line for line in file if not line.startswith("#")))
+        self.assertEqual([k for k in dict.fromkeys(row["k"] for row in rows)], [f"{k:.17g}" for k in (0.1, 0.5)])
+        total, wall = ([row for row in rows if row["part"] == part] for part in ("total", "wall"))
+        self.assertEqual(len(total), 2 * 5 * 6)
+        for whole, part in zip(total, wall, strict=True):
+            for column in ("in_phase", "out_of_phase"):
+                self.assertAlmostEqual(float(whole[column]), float(part[column]))
+            response = complex(float(whole["in_phase"]), float(whole["k"]) * float(whole["out_of_phase"]))
+            self.assertAlmostEqual(float(whole["modulus"]), abs(response))
+            self.assertAlmostEqual(math.cos(math.radians(float(whole["phase_deg"]))) * abs(response), response.real)
+
+    def test_says_what_was_not_reached(self) -> None:
+        for settings, part in (
+            ({"derivatives.max_iterations": 2}, "the linear residual for alpha at k = 0.1 dropped"),
+            ({"steady.orders": 2}, "decades down"),
+        ):
+            with self.subTest(settings):
+                words = [word for key, value in settings.items() for word in ("--set", f"{key}={value}")]
+                done = self.run_as(5, "frequency", "cut", "--overwrite", "--k", "0.1", *words)
+                self.assertIn(part, done.err.splitlines()[-1])
+                self.assertFalse(any(entry["converged"] for entry in self.derivatives("cut").values()))
+                self.assertIn("# Status: not_converged", (self.folder / "cut/frequency.csv").read_text())
+
+    def test_cut_solves_are_within_their_errors(self) -> None:
+        self.run_as(0, "frequency", "exact", "--k", "0.3", "--set", "derivatives.orders=8")
+        self.run_as(0, "frequency", "loose", "--k", "0.2,0.3", "--set", "derivatives.orders=1")
+        exact, loose = self.derivatives("exact"), self.derivatives("loose")
+        for name, entry in exact.items():
+            error = abs(loose[name]["value"] - entry["value"])
+            self.assertLessEqual(error, loose[name]["uncertainty"] + entry["uncertainty"], name)
+
+    def test_goes_on_from_its_checkpoints(self) -> None:
+        self.run_as(0, "frequency", "whole", "--k", "0.1,0.2")
+        self.run_as(0, "frequency", "part", "--k", "0.1")
+        done = self.run_as(0, "frequency", "part", "--k", "0.1,0.2", "--restart")
+        self.assertIn("5 linear solves are taken from the checkpoint", done.err)
+        whole, part = self.derivatives("whole"), self.derivatives("part")
+        self.assertEqual({name: entry["value"] for name, entry in part.items()}, {name: entry["value"] for name, entry in whole.items()})
+
+    def test_refuses(self) -> None:
+        for k in ("0", "-1", "nan", "x", "1e9"):
+            done = run(self.folder, "frequency", "case.toml", "--k", k)
+            self.assertEqual(done.codes, [2] * RANKS, k)
+        self.assertEqual(run(self.folder, "frequency", "case.toml").codes, [2] * RANKS)
+
+
+if __name__ == "__main__":
+    unittest.main()
