@@ -3,6 +3,7 @@
 
 #include <map>
 #include <string>
+#include <vector>
 
 #include "derivatives/settings.hpp"
 #include "march/settings.hpp"
@@ -12,8 +13,9 @@
 namespace alphadot {
 
 struct MeshSettings {
-  std::string file;  ///< as resolved against the case file's folder
-  Real scale = 1;    ///< mesh units to the units of [reference]
+  std::string file;                    ///< as resolved against the case file's folder
+  Real scale = 1;                      ///< mesh units to the units of [reference]
+  std::vector<std::string> thin = {};  ///< patches inside the mesh that become walls with two sides
 };
 
 struct OutputSettings {

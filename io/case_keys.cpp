@@ -76,7 +76,11 @@ std::vector<CaseKey> make_keys() {
   Table(keys, "mesh", &Case::mesh)
       .key("file", &MeshSettings::file, TextValue{}, "mesh, relative to the folder of the case file")
       .required()
-      .key("scale", &MeshSettings::scale, length, "mesh units to the units of [reference]");
+      .key("scale", &MeshSettings::scale, length, "mesh units to the units of [reference]")
+      .key(
+          "thin", &MeshSettings::thin, TextsValue{.most = 1000},
+          "patches inside the mesh, as of fins without thickness, that become walls with two sides; loads of "
+          "such a patch are those of both sides together; in a prepared mesh they are so already");
 
   Table(keys, "reference", &Case::reference)
       .key("length", &ReferenceSettings::length, length, "diameter or chord, for moments and rates")

@@ -24,12 +24,21 @@ constexpr std::array<Family, 8> families{
      {Shape::prism, {{{6, 6}, {13, 18}, {18, 15}, {90, 40}, {91, 75}}}},
      {Shape::pyramid, {{{7, 5}, {14, 14}, {19, 13}, {118, 30}, {119, 55}}}}}};
 
+/// By Gmsh's number: most files have a number for every element. No nodes where there is no such type.
+constexpr auto element_types = [] {
+  std::array<ElementType, 120> out{};
+  for (const Family& family : families)
+    for (const auto& [type, size] : family.types)
+      if (size > 0) out[static_cast<std::size_t>(type)] = {size, family.shape, type != family.types[0].first};
+  return out;
+}();
+
 }  // namespace
 
 ElementType State::element_type(int number) const {
-  for (const Family& family : families)
-    for (const auto& [type, size] : family.types)
-      if (size > 0 && type == number) return {size, family.shape, type != family.types[0].first};
+  if (number > 0 && number < std::ssize(element_types))
+    if (const ElementType& type = element_types[static_cast<std::size_t>(number)]; type.nodes > 0)
+      return type;
   in.fail("elements of Gmsh's type " + std::to_string(number) + " are not known",
           "mesh with tetrahedra, hexahedra, prisms and pyramids");
 }
@@ -54,9 +63,9 @@ Surface& State::surface_of(int group, int surface) {
 void State::begin_volume(int group, int volume) {
   const std::string_view name = group_name(3, group);
   if (!name.empty())
-    mesh.begin_region(name);
+    mesh.begin_volume(name);
   else
-    mesh.begin_region(group != 0 ? "group_" + std::to_string(std::abs(GlobalIndex{group}))
+    mesh.begin_volume(group != 0 ? "group_" + std::to_string(std::abs(GlobalIndex{group}))
                                  : "volume_" + std::to_string(volume));
 }
 

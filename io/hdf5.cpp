@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "core/error.hpp"
+#include "io/foreign_files.hpp"
 #include "io/hdf5_calls.hpp"
 #include "io/hdf5_driver.hpp"
 
@@ -302,6 +303,9 @@ File File::open(const std::string& path) {
   use_deferring_driver(access.id(), *error);
   const hid_t id = H5Fopen(path.c_str(), H5F_ACC_RDONLY, access.id());
   if (*error != 0) throw InputError(path, 0, std::strerror(*error));
+  if (id < 0)
+    if (const auto problem = foreign_content(path, beginning_of(path), Expected::text))
+      throw InputError(std::vector{*problem});
   Handle file = owned(id, H5Fclose, path, "not an HDF5 file, or an incomplete one");
   Handle root = owned(H5Gopen2(file.id(), "/", H5P_DEFAULT), H5Gclose, path, "has no root group");
   return {path, std::move(file), std::move(root), std::move(error)};

@@ -7,16 +7,13 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "io/utf8.hpp"
 
 namespace alphadot {
 namespace {
 
-// More names than any mesh has: such a file numbers something else in the place of its boundaries.
-constexpr std::size_t most_surfaces = 10'000;
-// Of a surface with its names and lists, before it has elements.
-constexpr std::size_t surface_bytes = 256;
 // More stretches of cells than a message could make use of.
-constexpr std::size_t most_regions = 1000;
+constexpr std::size_t most_volumes = 1000;
 
 /// "a", "a and b", "a, b and c".
 std::string listed(const std::vector<std::string>& parts) {
@@ -41,29 +38,20 @@ MeshBuilder::MeshBuilder(std::string file) {
   mesh_.file = std::move(file);
 }
 
-Surface& MeshBuilder::surface(std::string_view name, const Scanner& scanner) {
-  const auto found = surfaces_by_name_.find(name);
-  if (found != surfaces_by_name_.end()) return surfaces_[found->second];
-  const std::size_t most = std::min(most_surfaces, largest_array(scanner) / surface_bytes);
-  if (surfaces_.size() == most)
-    scanner.fail("more than " + std::to_string(most) + " boundary patches",
-                 "check that boundaries, not single triangles, are numbered");
-  surfaces_by_name_.emplace(name, surfaces_.size());
-  return surfaces_.emplace_back(Surface{std::string(name), {}, {}});
-}
-
-void MeshBuilder::begin_region(std::string_view name) {
-  if (region_starts_.size() > most_regions) return;
-  if (region_starts_.empty() || region_starts_.back().name != name)
-    region_starts_.push_back({std::string(name), sizes()});
+void MeshBuilder::begin_volume(std::string_view name) {
+  if (volume_starts_.size() > most_volumes) return;
+  if (volume_starts_.empty() || volume_starts_.back().name != name)
+    volume_starts_.push_back({std::string(name), sizes()});
 }
 
 MeshOfFile MeshBuilder::finish(const std::string& remedy) && {
   fail_without_cells(remedy);
   turn_left_handed();
+  const std::size_t first_cut = mesh_.cells.size();
   cut();
+  for (NamedVolume& volume : mesh_.volumes) volume.name = as_utf8(volume.name);
   make_patches();
-  drop_unused_points();
+  drop_unused_points(first_cut);
   return std::move(mesh_);
 }
 
@@ -89,7 +77,11 @@ void MeshBuilder::fail_without_cells(const std::string& remedy) const {
 
 void MeshBuilder::turn_left_handed() {
   GlobalIndex turned = 0;
-  const auto at = [&](GlobalIndex point) { return mesh_.points[static_cast<std::size_t>(point)]; };
+  is_used_.assign(mesh_.points.size(), false);
+  const auto at = [&](GlobalIndex point) {
+    is_used_[static_cast<std::size_t>(point)] = true;
+    return mesh_.points[static_cast<std::size_t>(point)];
+  };
   for (auto& [a, b, c, d] : mesh_.cells) {
     const Vec3 origin = at(a);
     if (!(dot(cross(at(b) - origin, at(c) - origin), at(d) - origin) < 0)) continue;
@@ -101,17 +93,17 @@ void MeshBuilder::turn_left_handed() {
         fmt::format("{} of {} tetrahedra were left-handed and have been turned", turned, mesh_.cells.size()));
 }
 
-/// Cuts the elements of one shape, the number of its array being `shape`, region by region.
+/// Cuts the elements of one shape, the number of its array being `shape`, volume by volume.
 template <std::size_t n>
 CuttingTally MeshBuilder::cut(std::vector<std::array<GlobalIndex, n>>& elements, std::size_t shape) {
   CuttingTally total;
   const std::span all(elements);
-  for (std::size_t i = 0; i < std::max<std::size_t>(region_starts_.size(), 1); ++i) {
-    const std::size_t begin = i == 0 ? 0 : region_starts_[i].first[shape],
-                      end = i + 1 < region_starts_.size() ? region_starts_[i + 1].first[shape] : all.size();
+  for (std::size_t i = 0; i < std::max<std::size_t>(volume_starts_.size(), 1); ++i) {
+    const std::size_t begin = i == 0 ? 0 : volume_starts_[i].first[shape],
+                      end = i + 1 < volume_starts_.size() ? volume_starts_[i + 1].first[shape] : all.size();
     if (begin == end) continue;
-    if (!region_starts_.empty())
-      mesh_.regions.push_back({region_starts_[i].name, static_cast<GlobalIndex>(mesh_.cells.size())});
+    if (!volume_starts_.empty())
+      mesh_.volumes.push_back({volume_starts_[i].name, static_cast<GlobalIndex>(mesh_.cells.size())});
     total += cut_elements<n>(all.subspan(begin, end - begin), mesh_.points, mesh_.cells);
   }
   elements = {};
@@ -119,12 +111,12 @@ CuttingTally MeshBuilder::cut(std::vector<std::array<GlobalIndex, n>>& elements,
 }
 
 void MeshBuilder::cut() {
-  if (region_starts_.size() > most_regions) region_starts_.clear();
-  for (const RegionStart& start : region_starts_)
-    if (mesh_.regions.empty() || start.first[0] > static_cast<std::size_t>(mesh_.regions.back().first_cell))
-      mesh_.regions.push_back({start.name, static_cast<GlobalIndex>(start.first[0])});
+  if (volume_starts_.size() > most_volumes) volume_starts_.clear();
+  for (const VolumeStart& start : volume_starts_)
+    if (mesh_.volumes.empty() || start.first[0] > static_cast<std::size_t>(mesh_.volumes.back().first_cell))
+      mesh_.volumes.push_back({start.name, static_cast<GlobalIndex>(start.first[0])});
     else
-      mesh_.regions.back().name = start.name;
+      mesh_.volumes.back().name = start.name;
   std::vector<std::string> kinds;
   CuttingTally total;
   const auto add = [&](Shape shape, std::size_t array, auto& elements) {
@@ -167,7 +159,7 @@ void MeshBuilder::cut() {
 void MeshBuilder::make_patches() {
   GlobalIndex quadrilaterals = 0, triangles = 0;
   for (Surface& surface : surfaces_) {
-    Patch& patch = mesh_.patches.emplace_back(Patch{std::move(surface.name), std::move(surface.triangles)});
+    Patch& patch = mesh_.patches.emplace_back(Patch{as_utf8(surface.name), std::move(surface.triangles)});
     quadrilaterals += static_cast<GlobalIndex>(surface.quadrilaterals.size());
     patch.triangles.reserve(patch.triangles.size() + 2 * surface.quadrilaterals.size());
     for (const auto& quadrilateral : surface.quadrilaterals)
@@ -181,27 +173,27 @@ void MeshBuilder::make_patches() {
     note(fmt::format("{} boundary quadrilaterals cut into {} triangles", quadrilaterals, triangles));
 }
 
-void MeshBuilder::drop_unused_points() {
-  const auto for_each_use = [this](auto&& visit) {
-    for (auto& cell : mesh_.cells)
-      for (GlobalIndex& point : cell) visit(point);
+void MeshBuilder::drop_unused_points(std::size_t first_cut) {
+  const auto for_each_use = [this](std::size_t first_cell, auto&& visit) {
+    for (std::size_t cell = first_cell; cell < mesh_.cells.size(); ++cell)
+      for (GlobalIndex& point : mesh_.cells[cell]) visit(point);
     for (Patch& patch : mesh_.patches)
       for (auto& triangle : patch.triangles)
         for (GlobalIndex& point : triangle) visit(point);
   };
-  std::vector<bool> used(mesh_.points.size(), false);
-  for_each_use([&](GlobalIndex point) { used[static_cast<std::size_t>(point)] = true; });
-  if (std::find(used.begin(), used.end(), false) == used.end()) return;
+  is_used_.resize(mesh_.points.size(), false);
+  for_each_use(first_cut, [&](GlobalIndex point) { is_used_[static_cast<std::size_t>(point)] = true; });
+  if (std::find(is_used_.begin(), is_used_.end(), false) == is_used_.end()) return;
 
   std::vector<GlobalIndex> new_id(mesh_.points.size());
   std::size_t kept = 0;
-  for (std::size_t point = 0; point < used.size(); ++point) {
-    if (!used[point]) continue;
+  for (std::size_t point = 0; point < is_used_.size(); ++point) {
+    if (!is_used_[point]) continue;
     new_id[point] = static_cast<GlobalIndex>(kept);
     mesh_.points[kept++] = mesh_.points[point];
   }
   mesh_.points.resize(kept);
-  for_each_use([&](GlobalIndex& point) { point = new_id[static_cast<std::size_t>(point)]; });
+  for_each_use(0, [&](GlobalIndex& point) { point = new_id[static_cast<std::size_t>(point)]; });
 }
 
 }  // namespace alphadot

@@ -30,25 +30,25 @@ namespace {
 
 /// The name of a file, by which its format is told: without ".gz", in lower case.
 std::string plain_name(std::string name) {
-  std::transform(name.begin(), name.end(), name.begin(),
-                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+  name = in_lower_case(name);
   if (name.ends_with(".gz")) name.resize(name.size() - 3);
   return name;
 }
 
 /// Makes sure that the name is one of a mesh.
 void check_name(const std::string& path, const std::string& name) {
-  if (name.ends_with(".msh") || name.ends_with(".su2") || name.ends_with(".ugrid")) return;
-  if (name.ends_with(".cgns"))
-    throw InputError(path, 0, "CGNS files are not read directly",
-                     "convert it: alphadot-cgns2su2 " + path + " mesh.su2");
   if (const auto problem = foreign_name(path, name)) fail_with(*problem);
+  if (name.ends_with(".msh") || name.ends_with(".su2") || name.ends_with(".ugrid")) return;
+  if (const auto problem = foreign_content(path, beginning_of(path), Expected::text)) fail_with(*problem);
   fail_unknown(path, "the extension tells no known mesh format");
 }
 
 /// Makes sure that the file begins the way its extension promises.
 void check_beginning(const std::string& path, std::string_view content, const std::string& name) {
-  if (const auto problem = foreign_content(path, content)) fail_with(*problem);
+  const auto form = ugrid_form(name);
+  const bool is_binary_form = form && form->encoding != Encoding::text;
+  if (const auto problem = foreign_content(path, content, is_binary_form ? Expected::binary : Expected::text))
+    fail_with(*problem);
   const std::string_view beginning = content.substr(0, 256);
   const std::size_t first = beginning.find_first_not_of(" \t\r\n\xef\xbb\xbf");
   const bool begins_as_gmsh = first != std::string_view::npos && beginning[first] == '$';
@@ -60,9 +60,15 @@ void check_beginning(const std::string& path, std::string_view content, const st
   const bool binary =
       std::any_of(beginning.begin(), beginning.end(), [](char c) { return c >= 0 && c < '\t'; });
   if (name.ends_with(".su2") && binary) fail_unknown(path, "the file is binary, so it is no SU2 mesh");
-  const auto form = ugrid_form(name);
   if (form && form->encoding == Encoding::text && binary)
     fail_unknown(path, "the file is binary, and .ugrid alone is for text: give it .b8.ugrid or .lb8.ugrid");
+}
+
+/// Lines of old Macintosh programs end with a carriage return alone.
+void mend_line_ends(std::string& content, const std::string& name) {
+  const bool is_text = name.ends_with(".msh") || name.ends_with(".su2");
+  if (is_text && content.find('\n') == std::string::npos)
+    std::replace(content.begin(), content.end(), '\r', '\n');
 }
 
 std::string read_file(const std::string& path) {
@@ -99,10 +105,13 @@ SurfaceNames names_beside(const std::string& path) {
 MeshOfFile read_mesh(const std::string& path) {
   const std::string name = plain_name(path);
   if (const auto problem = foreign_folder(path)) fail_with(*problem);
+  // A pointer to a file has the name of the file itself.
+  if (const auto problem = foreign_content(path, beginning_of(path), Expected::binary)) fail_with(*problem);
   check_name(path, name);
   std::string content = read_file(path);
   if (is_gzip(content)) content = gunzip(content, path);
   check_beginning(path, content, name);
+  mend_line_ends(content, name);
   if (name.ends_with(".msh")) return read_gmsh(content, path);
   if (name.ends_with(".su2")) return read_su2(content, path);
   return read_ugrid(content, path, *ugrid_form(name), names_beside(path));

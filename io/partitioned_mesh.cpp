@@ -16,6 +16,7 @@
 
 #include "core/error.hpp"
 #include "io/files.hpp"
+#include "io/foreign_files.hpp"
 #include "io/write_rows.hpp"
 #include "partition/slabs.hpp"
 
@@ -124,9 +125,11 @@ bool is_partitioned_mesh(const std::string& path) {
 }
 
 PartitionedMeshHeader read_partitioned_mesh_header(const std::string& path) {
-  if (!is_partitioned_mesh(path))
+  if (!is_partitioned_mesh(path)) {
+    if (const auto problem = foreign_name(path, in_lower_case(path))) throw InputError(std::vector{*problem});
     throw InputError(path, 0, "is an HDF5 file, but not a mesh prepared by alphadot partition",
                      "name a mesh file in [mesh] file");
+  }
   const auto file = hdf5::File::open(path);
   if (const auto version = file.attribute<std::int64_t>("format_version"); version != format_version)
     throw InputError(path, 0, fmt::format("has format {}, this program reads {}", version, format_version),

@@ -33,4 +33,11 @@ inline void extend(Box& box, const Box& other) {
   }
 }
 
+/// Whether `inner` lies in `outer`, on its sides perhaps.
+inline bool contains(const Box& outer, const Box& inner) {
+  for (int d = 0; d < 3; ++d)
+    if (inner.lower[d] < outer.lower[d] || inner.upper[d] > outer.upper[d]) return false;
+  return true;
+}
+
 }  // namespace alphadot

@@ -1,12 +1,15 @@
 #include "partition/mesh.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <xxhash.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <memory>
+#include <set>
 #include <span>
 #include <utility>
 
@@ -28,14 +31,6 @@ struct Tally {
   }
 };
 
-/// The triangles of all patches one after the other.
-std::vector<std::array<GlobalIndex, 3>> all_triangles(const std::vector<Patch>& patches) {
-  std::vector<std::array<GlobalIndex, 3>> triangles;
-  for (const auto& patch : patches)
-    triangles.insert(triangles.end(), patch.triangles.begin(), patch.triangles.end());
-  return triangles;
-}
-
 template <std::size_t n>
 bool in_range(const std::array<GlobalIndex, n>& ids, GlobalIndex points) {
   return std::all_of(ids.begin(), ids.end(), [&](GlobalIndex id) { return id >= 0 && id < points; });
@@ -54,7 +49,7 @@ std::string text(const Vec3& at) {
 /// Gathers the checks' findings.
 class Validator {
  public:
-  explicit Validator(const Mesh& mesh) : mesh_(mesh), triangles_(all_triangles(mesh.patches)) {}
+  explicit Validator(const Mesh& mesh) : mesh_(mesh), triangles_(mesh.boundary_triangles()) {}
 
   void run() {
     check_sizes();
@@ -131,7 +126,8 @@ class Validator {
 
   void check_faces() {
     const auto cell_sides = static_cast<Index>(4 * mesh_.cells.size());
-    Tally crowded, overlapping, bare, twice_covered, covered_inside, loose;
+    Tally crowded, overlapping, twice_covered, covered_inside, loose;
+    std::vector<Index> bare;
     DisjointSets joined(mesh_.cells.size());      // through faces that no triangle covers
     std::vector<std::pair<Index, Index>> beside;  // cells on either side of inner triangles
     for_each_face<GlobalIndex>(
@@ -147,7 +143,7 @@ class Validator {
           if (cells == 2 && !opposed(sides[0], sides[1]) && metrics(sides[0] / 4).volume > 0 &&
               metrics(sides[1] / 4).volume > 0)
             overlapping.add(cell);
-          if (cells == 1 && triangles == 0) bare.add(cell);
+          if (cells == 1 && triangles == 0) bare.push_back(sides.front() / 4);
           if (cells == 1 && triangles > 1) twice_covered.add(triangle);
           if (cells == 2 && triangles == 0) joined.join(sides[0] / 4, sides[1] / 4);
           if (cells > 1 && triangles > 0) {
@@ -156,59 +152,112 @@ class Validator {
           }
           if (cells == 0) loose.add(triangle);
         });
+    const std::vector<Part> parts = parts_beside(beside, joined);
     report_cells(crowded, "shares a face with two or more other cells",
                  "remove duplicate or overlapping cells");
     report_cells(overlapping, "lies on the same side of a face as its neighbour", "remove overlapping cells");
-    report_cells(bare, "has a face with neither a second cell nor a boundary triangle",
-                 "put every surface of the volume in a physical group (gmsh) or boundary condition (CGNS), "
-                 "and merge double points");
+    report_bare(bare, parts, joined);
     report_triangles(twice_covered, "covers a face that another triangle covers too",
                      "put each surface in one patch only");
-    report_inner_surface(covered_inside, beside, joined);
+    report_inner_surface(covered_inside, parts);
     report_triangles(loose, "is not a face of any cell",
                      "leave surfaces without a volume next to them out of the patches");
   }
 
-  /// A surface inside the mesh either has cells of one flow on both sides, or parts it: then the mesh goes on
-  /// inside the body.
-  void report_inner_surface(const Tally& tally, const std::vector<std::pair<Index, Index>>& beside,
-                            DisjointSets& joined) {
-    const auto parts = std::ranges::find_if(
-        beside, [&](const auto& cells) { return joined.root(cells.first) != joined.root(cells.second); });
-    if (parts == beside.end()) {
-      report_triangles(tally, "lies between two cells",
-                       "give a body that has no thickness two sides with points of their own (Gmsh's plugin "
-                       "Crack does), or a thickness; leave surfaces that are no bodies out of the patches");
-      return;
-    }
-    std::array<Part, 2> sides{part_of(parts->first, joined), part_of(parts->second, joined)};
-    if (sides[0].cells < sides[1].cells) std::swap(sides[0], sides[1]);
-    report_triangles(
-        tally,
-        fmt::format(
-            "lies between two cells: it parts {} cells from {} to {} from {} cells from {} to {}, of which "
-            "one must be the inside of the body",
-            sides[0].cells, text(sides[0].box.lower), text(sides[0].box.upper), sides[1].cells,
-            text(sides[1].box.lower), text(sides[1].box.upper)),
-        "leave the volume inside the body out of the mesh (in Gmsh, a Physical Volume of the flow alone); "
-        "the "
-        "surface stays a patch");
-  }
-
-  /// Cells joined to a given one.
+  /// Cells that are joined to each other through faces without a triangle.
   struct Part {
+    Index root = 0;
     GlobalIndex cells = 0;
     Box box = empty_box();
+    std::set<std::string_view> volumes;  ///< names of the volumes that its cells are of
+    /// Whether it lies within another part, as the inside of a body does.
+    bool is_inside = false;
   };
-  Part part_of(Index cell, DisjointSets& joined) const {
-    const Index root = joined.root(cell);
-    Part out;
-    for (std::size_t i = 0; i < mesh_.cells.size(); ++i) {
-      if (joined.root(static_cast<Index>(i)) != root) continue;
-      ++out.cells;
-      for (const GlobalIndex point : mesh_.cells[i]) extend(out.box, mesh_.points[point]);
+
+  /// The parts that inner triangles have on their two sides, the largest first; none when every triangle has
+  /// the same part on both.
+  std::vector<Part> parts_beside(const std::vector<std::pair<Index, Index>>& beside,
+                                 DisjointSets& joined) const {
+    std::vector<Part> parts;
+    std::vector<Index> part_of_root(mesh_.cells.size() * !beside.empty(), -1);
+    for (const auto& [a, b] : beside)
+      if (joined.root(a) != joined.root(b))
+        for (const Index cell : {a, b}) {
+          const Index root = joined.root(cell);
+          if (part_of_root[root] >= 0) continue;
+          part_of_root[root] = static_cast<Index>(parts.size());
+          parts.emplace_back().root = root;
+        }
+    if (parts.empty()) return parts;
+    for (std::size_t cell = 0; cell < mesh_.cells.size(); ++cell) {
+      const Index number = part_of_root[joined.root(static_cast<Index>(cell))];
+      if (number < 0) continue;
+      Part& part = parts[number];
+      ++part.cells;
+      for (const GlobalIndex point : mesh_.cells[cell]) extend(part.box, mesh_.points[point]);
+      const std::string_view volume = mesh_.volume_of(static_cast<GlobalIndex>(cell));
+      if (!volume.empty()) part.volumes.insert(volume);
     }
-    return out;
+    std::ranges::stable_sort(parts, [](const Part& a, const Part& b) { return a.cells > b.cells; });
+    for (Part& part : parts)
+      part.is_inside = std::ranges::any_of(parts, [&](const Part& other) {
+        return &other != &part && contains(other.box, part.box) && !contains(part.box, other.box);
+      });
+    return parts;
+  }
+
+  /// A wall may only be missing because the inside of the body is meshed, which is told elsewhere.
+  void report_bare(std::span<const Index> bare, std::span<const Part> parts, DisjointSets& joined) {
+    Tally tally;
+    for (const Index cell : bare)
+      if (std::ranges::none_of(parts, [root = joined.root(cell)](const Part& part) {
+            return part.is_inside && part.root == root;
+          }))
+        tally.add(cell);
+    report_cells(
+        tally, "has a face with neither a second cell nor a boundary triangle",
+        "put every surface of the volume in a physical group (Gmsh), marker (SU2) or boundary condition "
+        "(CGNS), and merge double points");
+  }
+
+  /// 'volume "air" (120 cells from ... to ...)', or 'the 120 cells from ... to ...' where it has no name.
+  static std::string described(const Part& part) {
+    const std::string extent =
+        fmt::format("{} cells from {} to {}", part.cells, text(part.box.lower), text(part.box.upper));
+    if (part.volumes.empty()) return "the " + extent;
+    return fmt::format("volume{} \"{}\" ({})", part.volumes.size() > 1 ? "s" : "",
+                       fmt::join(part.volumes, "\", \""), extent);
+  }
+
+  /// A surface inside the mesh either has cells of one flow on both sides, or parts it: then the mesh goes on
+  /// inside the body.
+  void report_inner_surface(const Tally& tally, std::span<const Part> parts) {
+    if (parts.empty())
+      return report_triangles(
+          tally, "lies between two cells",
+          "a body that has no thickness becomes a wall with two sides when mesh.thin lists its patch; leave "
+          "surfaces that are no bodies out of the patches");
+    const auto inside = std::ranges::find_if(parts, &Part::is_inside);
+    std::string remedy;
+    if (inside == parts.end()) {
+      remedy = "leave the one that is not the flow out of the mesh";
+    } else {
+      // A person who takes out one body should not have to come again for the next.
+      constexpr std::ptrdiff_t most = 5;
+      std::ptrdiff_t listed = 0;
+      for (const Part& part : parts)
+        if (part.is_inside && listed++ < most)
+          remedy += (remedy.empty() ? "leave out of the mesh what is the inside of a body: " : ", ") +
+                    described(part);
+      if (listed > most) remedy += fmt::format(" and {} more", listed - most);
+    }
+    const Part& other = inside == parts.end() ? parts[1] : *inside;
+    const Part& flow = parts[0].root == other.root ? parts[1] : parts[0];
+    report_triangles(
+        tally,
+        fmt::format("lies between two cells: it is a wall between {} and {}", described(flow),
+                    described(other)),
+        remedy + " (in Gmsh, make a Physical Volume of the flow alone); the surface stays a patch");
   }
 
   /// True when the sides are traversed in opposite senses, i.e. their cells lie on opposite sides of the
@@ -235,17 +284,22 @@ class Validator {
             remedy);
   }
 
-  void report_triangles(const Tally& tally, const std::string& what, const char* remedy) {
+  void report_triangles(const Tally& tally, const std::string& what, const std::string& remedy) {
     if (tally.count == 0) return;
-    GlobalIndex place = tally.first;  // within its patch
-    auto patch = mesh_.patches.begin();
-    for (; place >= static_cast<GlobalIndex>(patch->triangles.size()); ++patch)
-      place -= static_cast<GlobalIndex>(patch->triangles.size());
+    const auto [patch, place] = place_of(tally.first);
     Vec3 center;
     for (const GlobalIndex id : triangles_[tally.first]) center += 1.0 / 3 * mesh_.points[id];
     problem(fmt::format("triangle {} of patch \"{}\" at {} {} ({} such cases)", place + 1, patch->name,
                         text(center), what, tally.count),
             remedy);
+  }
+
+  /// The patch of a triangle and its place within it.
+  std::pair<const Patch*, GlobalIndex> place_of(GlobalIndex triangle) const {
+    auto patch = mesh_.patches.begin();
+    for (; triangle >= static_cast<GlobalIndex>(patch->triangles.size()); ++patch)
+      triangle -= static_cast<GlobalIndex>(patch->triangles.size());
+    return {&*patch, triangle};
   }
 
   void problem(std::string what, std::string remedy) {
@@ -265,6 +319,18 @@ class Validator {
 
 void Mesh::validate() const {
   Validator(*this).run();
+}
+
+std::string_view Mesh::volume_of(GlobalIndex cell) const {
+  const auto next = std::ranges::upper_bound(volumes, cell, {}, &NamedVolume::first_cell);
+  return next == volumes.begin() ? std::string_view{} : std::string_view(std::prev(next)->name);
+}
+
+std::vector<std::array<GlobalIndex, 3>> Mesh::boundary_triangles() const {
+  std::vector<std::array<GlobalIndex, 3>> triangles;
+  for (const Patch& patch : patches)
+    triangles.insert(triangles.end(), patch.triangles.begin(), patch.triangles.end());
+  return triangles;
 }
 
 std::string Mesh::hash() const {

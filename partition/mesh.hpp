@@ -3,6 +3,7 @@
 
 #include <array>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/types.hpp"
@@ -16,6 +17,12 @@ struct Patch {
   std::vector<std::array<GlobalIndex, 3>> triangles;  ///< point ids; any orientation
 };
 
+/// A named part of the volume: the cells from `first_cell` up to that of the next one.
+struct NamedVolume {
+  std::string name;
+  GlobalIndex first_cell;
+};
+
 /// An unstructured tetrahedral mesh. Points in mesh units; cells are tetrahedra with positive volume:
 /// (p1-p0) x (p2-p0) . (p3-p0) > 0.
 struct Mesh {
@@ -23,6 +30,13 @@ struct Mesh {
   std::vector<Vec3> points;                       ///< [points]
   std::vector<std::array<GlobalIndex, 4>> cells;  ///< [cells] point ids
   std::vector<Patch> patches;
+  /// By first cell, if the file tells; one name may come several times.
+  std::vector<NamedVolume> volumes = {};
+
+  /// The name of the volume that a cell belongs to; empty when the file tells none.
+  std::string_view volume_of(GlobalIndex cell) const;
+  /// The triangles of all patches one after the other.
+  std::vector<std::array<GlobalIndex, 3>> boundary_triangles() const;
 
   /// Checks every invariant: finite points, point ids in range and distinct within a cell, positive volumes,
   /// no face shared by more than two cells, every face with one cell is covered by exactly one boundary

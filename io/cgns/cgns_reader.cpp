@@ -10,23 +10,25 @@
 #include <filesystem>
 #include <map>
 #include <numeric>
+#include <optional>
 #include <set>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "core/error.hpp"
 #include "io/bounded_growth.hpp"
+#include "io/foreign_files.hpp"
+#include "io/mesh_builder.hpp"
 
 namespace alphadot {
 namespace {
 
 using ElementType = CGNS_ENUMT(ElementType_t);
 
-constexpr auto tetrahedron = CGNS_ENUMV(TETRA_4);
-constexpr auto triangle = CGNS_ENUMV(TRI_3);
 constexpr auto mixed = CGNS_ENUMV(MIXED);
 constexpr const char* rewrite = "the file is damaged: write it again";
-constexpr const char* tetrahedra_only =
-    "export the mesh as one unstructured zone of linear tetrahedra and triangles";
+constexpr const char* one_zone = "export the mesh as one unstructured zone";
 
 /// Names in a CGNS file have 32 characters; those of families may be paths of them.
 using Name = std::array<char, 1024>;
@@ -34,11 +36,33 @@ using Name = std::array<char, 1024>;
 /// Points or elements that are read at a time, so that the mesh is in memory once, not twice.
 constexpr std::int64_t piece = 65536;
 
-/// Points and lines: nothing that a mesh of a volume needs.
-bool is_below_surface(ElementType type) {
-  constexpr std::array types{CGNS_ENUMV(NODE), CGNS_ENUMV(BAR_2), CGNS_ENUMV(BAR_3), CGNS_ENUMV(BAR_4),
-                             CGNS_ENUMV(BAR_5)};
-  return std::ranges::find(types, type) != types.end();
+/// A type of elements. Corners come first among the nodes; their order is that of Shape.
+struct Kind {
+  std::string name;            ///< the standard's, such as HEXA_20
+  std::int64_t nodes = 0;      ///< none where elements of a type have different numbers of them
+  std::optional<Shape> shape;  ///< none for points and lines, which are passed over, and for polyhedra
+
+  bool is_polyhedral() const { return name == "NGON_n" || name == "NFACE_n"; }
+  bool is_surface() const { return shape == Shape::triangle || shape == Shape::quadrilateral; }
+  bool is_curved() const { return shape && nodes > static_cast<std::int64_t>(corner_count(*shape)); }
+};
+
+/// The kind of a type; nothing for one that the standard does not have.
+std::optional<Kind> kind_of(ElementType type) {
+  int nodes = 0;
+  if (type <= 0 || type >= NofValidElementTypes || type == mixed || cg_npe(type, &nodes) != CG_OK)
+    return std::nullopt;
+  Kind out{cg_ElementTypeName(type), std::max(nodes, 0), std::nullopt};
+  constexpr std::array<std::pair<std::string_view, Shape>, 6> shapes{{{"TRI_", Shape::triangle},
+                                                                      {"QUAD_", Shape::quadrilateral},
+                                                                      {"TETRA_", Shape::tetrahedron},
+                                                                      {"PYRA_", Shape::pyramid},
+                                                                      {"PENTA_", Shape::prism},
+                                                                      {"HEXA_", Shape::hexahedron}}};
+  for (const auto& [beginning, shape] : shapes)
+    if (out.name.starts_with(beginning)) out.shape = shape;
+  if (out.nodes == 0 && !out.is_polyhedral()) return std::nullopt;
+  return out;
 }
 
 class CgnsReader {
@@ -48,7 +72,7 @@ class CgnsReader {
   CgnsReader(const CgnsReader&) = delete;
   CgnsReader& operator=(const CgnsReader&) = delete;
 
-  Mesh read() &&;
+  MeshOfFile read() &&;
 
   /// Bytes of the file.
   std::size_t size() const { return static_cast<std::size_t>(bytes_); }
@@ -63,11 +87,11 @@ class CgnsReader {
     ElementType type{};
     cgsize_t first = 0, last = 0;  ///< its elements
   };
-  /// What is known of a triangle besides its points. Apart from them, so that no array is out of proportion.
+  /// What is known of a face besides its points. Apart from them, so that no array is out of proportion.
   struct Label {
     cgsize_t element = 0;   ///< its number in the zone
     std::int32_t name = 0;  ///< in names_
-    bool has_condition = false;
+    bool is_triangle = true, has_condition = false;
   };
 
   /// Throws what the library says when `status` tells of an error.
@@ -84,7 +108,8 @@ class CgnsReader {
   void read_sections();
   void read_section(const Section& section);
   void read_mixed(const Section& section, const std::vector<cgsize_t>& entries);
-  void add_element(ElementType type, const cgsize_t* points, cgsize_t number, const std::string& section);
+  [[noreturn]] void fail_of_polyhedra(const Section& section, const std::string& type) const;
+  void add_element(const Kind& kind, const cgsize_t* points, cgsize_t number, const std::string& section);
   void read_conditions();
   void read_condition(int condition);
   std::string family_of(int condition) const;
@@ -97,32 +122,34 @@ class CgnsReader {
   std::int64_t bytes_;  ///< length of the file
   int file_ = 0, base_ = 1, zone_ = 1;
   cgsize_t point_count_ = 0;
-  Mesh mesh_;
-  std::vector<std::array<GlobalIndex, 3>> triangles_;  ///< points, in the order of the elements
-  std::vector<Label> labels_;                          ///< of each triangle
+  MeshBuilder mesh_;
+  std::vector<std::array<GlobalIndex, 3>> triangles_;       ///< points, in the order of the elements
+  std::vector<std::array<GlobalIndex, 4>> quadrilaterals_;  ///< the same
+  std::vector<Label> labels_;                               ///< of each of both, in the order of the elements
   std::vector<std::string> names_;
-  std::map<std::string, GlobalIndex> refused_;  ///< elements by type that the solver cannot take
 };
 
 CgnsReader::CgnsReader(const std::string& path, const std::function<void(const std::string&)>& tell)
-    : path_(path), tell_(tell) {
+    : path_(path), tell_(tell), mesh_(path) {
   std::error_code error;
   bytes_ = static_cast<std::int64_t>(std::filesystem::file_size(path, error));
   if (error) fail("cannot read the file: " + error.message(), "check the path and its permissions");
   int type = 0;
-  if (cg_is_cgns(path.c_str(), &type) != CG_OK)
+  if (cg_is_cgns(path.c_str(), &type) != CG_OK) {
+    if (const auto problem = foreign_content(path, beginning_of(path), Expected::text))
+      throw InputError(std::vector{*problem});
     fail("this is no CGNS file, or it is cut short", "check that it was written to the end");
+  }
   check(cg_open(path.c_str(), CG_MODE_READ, &file_));
-  mesh_.file = path;
 }
 
-Mesh CgnsReader::read() && {
+MeshOfFile CgnsReader::read() && {
   choose_zone();
   read_points();
   read_sections();
   read_conditions();
   make_patches();
-  return std::move(mesh_);
+  return std::move(mesh_).finish("write the volume elements too, not only the surface");
 }
 
 void CgnsReader::check_size(std::int64_t count, std::int64_t bytes, const std::string& what) const {
@@ -151,12 +178,11 @@ void CgnsReader::choose_zone() {
     check(cg_zone_read(file_, base_, zone, name.data(), size.data()));
     check(cg_zone_type(file_, base_, zone, &type));
     if (type != CGNS_ENUMV(Unstructured))
-      fail(fmt::format("zone {} is {}", name.data(), cg_ZoneTypeName(type)), tetrahedra_only);
+      fail(fmt::format("zone {} is {}", name.data(), cg_ZoneTypeName(type)), one_zone);
     found.emplace_back(name.data());
     point_count_ = size[0];
   }
-  if (zones > 1)
-    fail(fmt::format("the file holds {} zones: {}", zones, fmt::join(found, ", ")), tetrahedra_only);
+  if (zones > 1) fail(fmt::format("the file holds {} zones: {}", zones, fmt::join(found, ", ")), one_zone);
 }
 
 void CgnsReader::read_points() {
@@ -175,8 +201,8 @@ void CgnsReader::read_points() {
          "only Cartesian CoordinateX, CoordinateY and CoordinateZ can be used");
 
   check_size(point_count_, 3 * 4, "the list of points");
-  mesh_.points.resize(static_cast<std::size_t>(point_count_));
-  std::vector<double> values(std::min<std::size_t>(mesh_.points.size(), piece));
+  mesh_.points().resize(static_cast<std::size_t>(point_count_));
+  std::vector<double> values(std::min<std::size_t>(mesh_.points().size(), piece));
   for (int axis = 0; axis < 3; ++axis) {
     for (std::int64_t before = 0; before < point_count_; before += piece) {
       const auto first = static_cast<cgsize_t>(before + 1),
@@ -184,7 +210,7 @@ void CgnsReader::read_points() {
       check(cg_coord_read(file_, base_, zone_, axes[static_cast<std::size_t>(axis)], CGNS_ENUMV(RealDouble),
                           &first, &last, values.data()));
       for (std::int64_t i = before; i < last; ++i)
-        mesh_.points[static_cast<std::size_t>(i)][axis] = values[static_cast<std::size_t>(i - before)];
+        mesh_.points()[static_cast<std::size_t>(i)][axis] = values[static_cast<std::size_t>(i - before)];
     }
   }
 }
@@ -215,22 +241,23 @@ std::vector<CgnsReader::Section> CgnsReader::sections_in_order() const {
 }
 
 void CgnsReader::read_sections() {
-  for (const Section& section : sections_in_order()) {
-    if (section.type == tetrahedron || section.type == triangle || section.type == mixed)
-      read_section(section);
-    else if (!is_below_surface(section.type))
-      refused_[cg_ElementTypeName(section.type)] += std::int64_t{section.last} - section.first + 1;
-  }
-  if (!refused_.empty()) {
-    std::string list;
-    for (const auto& [type, count] : refused_)
-      list += fmt::format("{}{} {}", list.empty() ? "" : ", ", count, type);
-    fail(fmt::format("the mesh holds {}, but only TETRA_4 and TRI_3 can be used", list), tetrahedra_only);
-  }
-  if (mesh_.cells.empty()) fail("the mesh has no tetrahedra", "write the volume elements too");
+  for (const Section& section : sections_in_order()) read_section(section);
+}
+
+void CgnsReader::fail_of_polyhedra(const Section& section, const std::string& type) const {
+  fail(fmt::format("section {} holds {} elements: the mesh is of polyhedra, which are not read", section.name,
+                   type),
+       "export it with tetrahedra, pyramids, prisms and hexahedra (TETRA_4, PYRA_5, PENTA_6, HEXA_8), which "
+       "a mesh made of these can be");
 }
 
 void CgnsReader::read_section(const Section& section) {
+  const auto kind = kind_of(section.type);
+  if (kind && kind->is_polyhedral()) fail_of_polyhedra(section, kind->name);
+  if (kind && !kind->shape) return;
+  if (!kind && section.type != mixed)
+    fail(fmt::format("section {} has elements of the unknown type {}", section.name,
+                     static_cast<int>(section.type)));
   cgsize_t size = 0;
   check(cg_ElementDataSize(file_, base_, zone_, section.index, &size));
   check_size(size, 4, fmt::format("section {}", section.name));
@@ -239,19 +266,20 @@ void CgnsReader::read_section(const Section& section) {
     check(cg_poly_elements_read(file_, base_, zone_, section.index, entries.data(), nullptr, nullptr));
     return read_mixed(section, entries);
   }
-  const std::int64_t nodes = section.type == tetrahedron ? 4 : 3;
   const auto count = std::int64_t{section.last} - section.first + 1;
-  if (count * nodes != size)
+  if (count > size || count * kind->nodes != size)
     fail(fmt::format("section {} has {} elements in {} numbers", section.name, count, size));
-  if (section.type == tetrahedron) reserve_more(mesh_.cells, count, *this);
-  if (section.type == triangle) reserve_more(triangles_, count, *this);
-  std::vector<cgsize_t> entries(static_cast<std::size_t>(std::min(count, piece) * nodes));
+  const auto reserve = [&](auto& elements) { reserve_more(elements, count, *this); };
+  mesh_.with_volumes(*kind->shape, reserve);
+  if (kind->shape == Shape::triangle) reserve(triangles_);
+  if (kind->shape == Shape::quadrilateral) reserve(quadrilaterals_);
+  std::vector<cgsize_t> entries(static_cast<std::size_t>(std::min(count, piece) * kind->nodes));
   for (std::int64_t first = section.first; first <= section.last; first += piece) {
     const auto last = std::min<std::int64_t>(first + piece - 1, section.last);
     check(cg_elements_partial_read(file_, base_, zone_, section.index, static_cast<cgsize_t>(first),
                                    static_cast<cgsize_t>(last), entries.data(), nullptr));
     for (std::int64_t number = first; number <= last; ++number)
-      add_element(section.type, entries.data() + (number - first) * nodes, static_cast<cgsize_t>(number),
+      add_element(*kind, entries.data() + (number - first) * kind->nodes, static_cast<cgsize_t>(number),
                   section.name);
   }
 }
@@ -259,23 +287,29 @@ void CgnsReader::read_section(const Section& section) {
 /// Elements of several types, each behind the number of its type.
 void CgnsReader::read_mixed(const Section& section, const std::vector<cgsize_t>& entries) {
   std::size_t at = 0;
+  ElementType type{};
+  std::optional<Kind> kind;
   for (std::int64_t number = section.first; number <= section.last; ++number) {
-    int nodes = 0;
     if (at == entries.size()) fail(fmt::format("section {} ends before element {}", section.name, number));
-    const auto type = static_cast<ElementType>(entries[at++]);
-    if (type <= 0 || type >= NofValidElementTypes || cg_npe(type, &nodes) != CG_OK || nodes <= 0)
+    const auto next = static_cast<ElementType>(entries[at++]);
+    if (next != type) kind = kind_of(next);
+    type = next;
+    if (kind && kind->is_polyhedral()) fail_of_polyhedra(section, kind->name);
+    if (!kind)
       fail(fmt::format("element {} in section {} has the unknown type {}", number, section.name,
                        entries[at - 1]));
-    if (static_cast<std::size_t>(nodes) > entries.size() - at)
+    if (static_cast<std::size_t>(kind->nodes) > entries.size() - at)
       fail(fmt::format("section {} ends inside element {}", section.name, number));
-    add_element(type, entries.data() + at, static_cast<cgsize_t>(number), section.name);
-    at += static_cast<std::size_t>(nodes);
+    add_element(*kind, entries.data() + at, static_cast<cgsize_t>(number), section.name);
+    at += static_cast<std::size_t>(kind->nodes);
   }
 }
 
-void CgnsReader::add_element(ElementType type, const cgsize_t* points, cgsize_t number,
+void CgnsReader::add_element(const Kind& kind, const cgsize_t* points, cgsize_t number,
                              const std::string& section) {
-  const auto set_points = [&](auto& ids) {
+  if (!kind.shape) return;
+  const auto add = [&](auto& elements) {
+    auto& ids = append(elements, {}, *this);
     for (std::size_t k = 0; k < ids.size(); ++k) {
       if (points[k] < 1 || points[k] > point_count_)
         fail(fmt::format("element {} in section {} uses point {} of {}", number, section, points[k],
@@ -283,14 +317,17 @@ void CgnsReader::add_element(ElementType type, const cgsize_t* points, cgsize_t 
       ids[k] = points[k] - 1;
     }
   };
-  if (type == tetrahedron) {
-    set_points(append(mesh_.cells, {}, *this));
-  } else if (type == triangle) {
-    set_points(append(triangles_, {}, *this));
-    append(labels_, {number, index_of(section), false}, *this);
-  } else if (!is_below_surface(type)) {
-    ++refused_[cg_ElementTypeName(type)];
+  if (!kind.is_surface()) {
+    mesh_.begin_volume(section);
+    if (kind.is_curved()) mesh_.add_curved(1);
+    return mesh_.with_volumes(*kind.shape, add);
   }
+  const bool is_triangle = kind.shape == Shape::triangle;
+  if (is_triangle)
+    add(triangles_);
+  else
+    add(quadrilaterals_);
+  append(labels_, {number, index_of(section), is_triangle, false}, *this);
 }
 
 void CgnsReader::read_conditions() {
@@ -315,7 +352,7 @@ void CgnsReader::read_condition(int condition) {
       set == CGNS_ENUMV(ElementRange) || set == CGNS_ENUMV(ElementList) || location == CGNS_ENUMV(FaceCenter);
   if (!is_elements)
     return tell_(
-        fmt::format("boundary condition {} is given by {}, not by faces: passed over, its triangles keep the "
+        fmt::format("boundary condition {} is given by {}, not by faces: passed over, its faces keep the "
                     "names of their sections",
                     name.data(), cg_GridLocationName(location)));
   check_size(size, 4, fmt::format("boundary condition {}", name.data()));
@@ -325,7 +362,7 @@ void CgnsReader::read_condition(int condition) {
   check(cg_boco_read(file_, base_, zone_, condition, elements.data(), nullptr));
   if (is_range) {
     const auto [first, last] = std::pair(elements[0], elements[1]);
-    if (first > last || std::int64_t{last} - first >= std::ssize(triangles_))
+    if (first > last || std::int64_t{last} - first >= std::ssize(labels_))
       fail(fmt::format("boundary condition {} has elements {} to {}", name.data(), first, last));
     elements.resize(static_cast<std::size_t>(last - first) + 1);
     std::iota(elements.begin(), elements.end(), first);
@@ -337,7 +374,7 @@ void CgnsReader::read_condition(int condition) {
     if (found.has_condition && found.name != index)
       fail(fmt::format("element {} belongs to two boundary conditions, {} and {}", element,
                        names_[static_cast<std::size_t>(found.name)], names_[static_cast<std::size_t>(index)]),
-           "give every triangle one");
+           "give every face one");
     found.has_condition = true;
     found.name = index;
   }
@@ -356,7 +393,7 @@ std::string CgnsReader::family_of(int condition) const {
 CgnsReader::Label& CgnsReader::label_of(cgsize_t element, const std::string& condition) {
   const auto found = std::ranges::lower_bound(labels_, element, {}, &Label::element);
   if (found == labels_.end() || found->element != element)
-    fail(fmt::format("boundary condition {} lists element {}, which is no TRI_3", condition, element));
+    fail(fmt::format("boundary condition {} lists element {}, which is no face", condition, element));
   return *found;
 }
 
@@ -367,25 +404,28 @@ std::int32_t CgnsReader::index_of(const std::string& name) {
   return static_cast<std::int32_t>(index);
 }
 
-/// Patches in the order of their first triangles.
+/// Patches in the order of their first faces.
 void CgnsReader::make_patches() {
-  std::vector<GlobalIndex> sizes(names_.size(), 0);
-  for (const Label& label : labels_) ++sizes[static_cast<std::size_t>(label.name)];
-  std::vector<Patch*> patch_of(names_.size(), nullptr);
-  mesh_.patches.reserve(names_.size());
-  for (std::size_t i = 0; i < triangles_.size(); ++i) {
-    const auto name = static_cast<std::size_t>(labels_[i].name);
-    if (!patch_of[name]) {
-      patch_of[name] = &mesh_.patches.emplace_back(Patch{names_[name], {}});
-      patch_of[name]->triangles.reserve(static_cast<std::size_t>(sizes[name]));
-    }
-    patch_of[name]->triangles.push_back(triangles_[i]);
+  std::vector<std::array<GlobalIndex, 2>> counts(names_.size());  // triangles and quadrilaterals
+  for (const Label& label : labels_)
+    ++counts[static_cast<std::size_t>(label.name)][label.is_triangle ? 0 : 1];
+  auto triangle = triangles_.begin();
+  auto quadrilateral = quadrilaterals_.begin();
+  for (const Label& label : labels_) {
+    const auto name = static_cast<std::size_t>(label.name);
+    Surface& surface = mesh_.surface(names_[name], *this);
+    reserve_more(surface.triangles, std::exchange(counts[name][0], 0), *this);
+    reserve_more(surface.quadrilaterals, std::exchange(counts[name][1], 0), *this);
+    if (label.is_triangle)
+      append(surface.triangles, *triangle++, *this);
+    else
+      append(surface.quadrilaterals, *quadrilateral++, *this);
   }
 }
 
 }  // namespace
 
-Mesh read_cgns(const std::string& path, const std::function<void(const std::string&)>& tell) {
+MeshOfFile read_cgns(const std::string& path, const std::function<void(const std::string&)>& tell) {
   return CgnsReader(path, tell).read();
 }
 

@@ -21,7 +21,8 @@ int convert(const std::string& from, const std::string& to) {
     std::error_code error;
     if (std::filesystem::equivalent(from, to, error))
       throw InputError(to, 0, "the SU2 file would replace the CGNS file itself", "name another file");
-    const Mesh mesh = read_cgns(from, [](const std::string& note) { fmt::print("{}\n", note); });
+    const MeshOfFile mesh = read_cgns(from, [](const std::string& note) { fmt::print("{}\n", note); });
+    for (const auto& note : mesh.notes) fmt::print("{}\n", note);
     write_su2(to, mesh);
     fmt::print("{}: {} tetrahedra, {} points\n", to, mesh.cells.size(), mesh.points.size());
     for (const auto& patch : mesh.patches)
@@ -38,7 +39,7 @@ int convert(const std::string& from, const std::string& to) {
 int main(int argc, char** argv) {
   std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error like a full disk, not the end
   CLI::App app{
-      "Makes an SU2 mesh from the unstructured tetrahedral mesh in a CGNS file.\n"
+      "Makes an SU2 mesh of tetrahedra from the unstructured mesh in a CGNS file.\n"
       "Exit codes: 0 converted, 1 error, 2 wrong command line."};
   std::string from, to;
   app.add_option("from", from, "CGNS file")->required();

@@ -93,8 +93,7 @@ void describe_result(const std::string& file) {
 
 RunStatus info_verb(const std::string& file, const Communicator& comm) {
   comm.on_root([&] {
-    if (!std::filesystem::is_regular_file(file))
-      throw InputError(file, 0, "there is no such file", "check the path");
+    if (!std::filesystem::exists(file)) throw InputError(file, 0, "there is no such file", "check the path");
     const std::string extension = std::filesystem::path(file).extension();
     if (is_partitioned_mesh(file))
       describe_partitioned_mesh(file);

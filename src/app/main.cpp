@@ -156,6 +156,12 @@ int main(int argc, char** argv) {
       ->required()
       ->check(CLI::Range(1, 1'000'000));
   partition.add_option("-o,--output", cut.output, "Prepared mesh (default: beside the mesh, with .h5)");
+  partition
+      .add_option("--thin", cut.thin,
+                  "Patch inside the mesh that becomes a wall with two sides; may be repeated")
+      ->type_name("PATCH")
+      ->take_all()
+      ->allow_extra_args(false);
   partition.add_option("--refine", cut.refinements, "Times that every tetrahedron is cut into eight first")
       ->check(CLI::Range(0, 8));
   partition.add_option("--method", cut.partitioner, "metis (one rank cuts) or ptscotch (all ranks together)")

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <span>
+#include <string>
 #include <utility>
 
 #include "app/verbs.hpp"
@@ -16,20 +18,27 @@
 #include "partition/refine.hpp"
 #include "partition/reorder.hpp"
 #include "partition/slabs.hpp"
+#include "partition/thin_walls.hpp"
 
 namespace alphadot {
 
 namespace {
 
 /// Any mesh, in equal stretches of its order (a prepared one: of its pieces).
-MeshPart read_part(const std::string& file, const Communicator& comm) {
+MeshPart read_part(const std::string& file, std::span<const std::string> thin, const Communicator& comm) {
   bool prepared = false;
-  comm.on_root([&] { prepared = is_hdf5(file); });
+  comm.on_root([&] {
+    prepared = is_hdf5(file);
+    if (prepared && !thin.empty())
+      throw InputError(file, 0, "--thin is for meshes as they come from a generator, not for prepared ones",
+                       "give the mesh that this one was made of");
+  });
   if (comm.any(prepared)) return read_partitioned_mesh(file, comm);
   MeshOfFile mesh;
   std::vector<int> owner;
   comm.on_root([&] {
     mesh = read_mesh(file);
+    for (auto& note : open_thin_walls(mesh, thin)) mesh.notes.push_back(std::move(note));
     for (const auto& note : mesh.notes) spdlog::info("{}: {}", file, note);
     mesh.validate();
     const EqualShares shares(static_cast<GlobalIndex>(mesh.cells.size()), comm.size());
@@ -68,7 +77,7 @@ void check_arguments(const PartitionArguments& arguments) {
 RunStatus partition_verb(const PartitionArguments& arguments, const Communicator& comm) {
   const Timer time;
   comm.on_root([&] { check_arguments(arguments); });
-  MeshPart part = read_part(arguments.mesh, comm);
+  MeshPart part = read_part(arguments.mesh, arguments.thin, comm);
   for (int level = 0; level < arguments.refinements; ++level) part = refine(std::move(part), comm);
   auto points = part.points;
   const auto file = part.file;

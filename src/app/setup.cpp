@@ -17,6 +17,7 @@
 #include "io/partitioned_mesh.hpp"
 #include "io/seal.hpp"
 #include "io/toml_text.hpp"
+#include "partition/thin_walls.hpp"
 #include "space/plausibility.hpp"
 
 namespace alphadot {
@@ -91,7 +92,9 @@ void read_mesh_of(const Case& settings, const std::string& file, CaseFiles& out)
     for (const auto& patch : out.mesh.patches) patches.push_back(patch.name);
   }
   if (!settings.boundary.empty()) add_patch_problems(settings, patches, out.problems);
-  if (!out.mesh_is_prepared) out.mesh.validate();
+  if (out.mesh_is_prepared) return;
+  for (auto& note : open_thin_walls(out.mesh, settings.mesh.thin)) out.mesh.notes.push_back(std::move(note));
+  out.mesh.validate();
 }
 
 /// Where something is wrong already, the coarser meshes are looked at too, so that nothing comes to light

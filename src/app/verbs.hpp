@@ -29,7 +29,8 @@ struct PartitionArguments {
   std::string mesh;
   std::string output;  ///< empty: the mesh's name with the extension .h5
   int pieces = 1;
-  int refinements = 0;  ///< times that every tetrahedron is cut into eight first
+  std::vector<std::string> thin;  ///< patches inside the mesh that become walls with two sides
+  int refinements = 0;            ///< times that every tetrahedron is cut into eight first
   Partitioner partitioner = Partitioner::metis;
 };
 

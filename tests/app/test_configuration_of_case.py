@@ -109,12 +109,31 @@ class Configurations(unittest.TestCase):
         self.refused("tool_left", "2 regions that share no face", settings=("mesh.file=tool_left.h5",))
 
     def test_a_body_that_is_meshed_inside(self) -> None:
-        outcome = self.refused("two", "it parts", "one must be the inside of the body", "(0, 0, -0.1) to (1, 0.2, 0.1)",
-                               "leave the volume inside the body out of the mesh")  # fmt: skip
-        self.assertNotIn("inner surfaces", outcome.err)
+        outcome = self.refused("two", 'a wall between volume "air" (', 'and volume "solid" (', "(0, 0, -0.1) to (1, 0.2, 0.1)",
+                               'leave out of the mesh what is the inside of a body: volume "solid"')  # fmt: skip
+        self.assertNotIn("mesh.thin", outcome.err)
+        self.assertNotIn("neither a second cell", outcome.err)
 
     def test_a_body_without_thickness(self) -> None:
-        self.refused("baffle", "lies between two cells", "no thickness")
+        self.refused("baffle", "lies between two cells", "no thickness", "mesh.thin")
+        self.refused("baffle", 'mesh.thin names "fin", which the mesh does not have', settings=('mesh.thin=["fin"]',))
+        self.refused("baffle", 'mesh.thin names "symmetry", which has nothing inside', settings=('mesh.thin=["body", "symmetry"]',))
+        # A rectangle of 1 x 0.5 and its mirror image, both sides of each.
+        walls = f"walls: {4 * 1.0 * 0.5 / 0.12566:.5g} reference areas"
+        thin = run(self.folder, "check", "baffle.toml", "--set", 'mesh.thin=["body"]')
+        self.assertEqual(thin.codes, [0] * RANKS, thin.err)
+        self.assertIn("triangles inside the mesh are a wall with two sides", thin.err)
+        self.assertIn(walls, thin.out)
+        self.assertIn("out of balance by (0, 0, 0)", thin.out)
+        prepared = run(self.folder, "partition", "baffle.msh", "--thin", "body", "-n", "3")
+        self.assertEqual(prepared.codes, [0] * RANKS, prepared.err)
+        for settings in ((), ('mesh.thin=["body"]',)):
+            again = run(self.folder, "check", "baffle.toml", *set_keys("mesh.file=baffle.h5", *settings))
+            self.assertEqual(again.codes, [0] * RANKS, again.err)
+            self.assertIn(walls, again.out)
+
+    def test_a_body_that_is_meshed_inside_is_no_thin_wall(self) -> None:
+        self.refused("two", 'and volume "solid" (', settings=('mesh.thin=["body"]',))
 
     def test_half_mesh_as_a_full_model(self) -> None:
         says = ('"symmetry" in the plane y = 0', 'set reference.model = "half"')

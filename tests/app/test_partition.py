@@ -97,7 +97,7 @@ class Partition(unittest.TestCase):
         run(self.folder, "run", "case.toml", "--set", "mesh.file=whole.h5", "--out", "run", "--quiet")
         self.assert_refused(run(self.folder, "partition", "box.msh", "-n", "2", "-o", "run/flow.vtkhdf"), "is no prepared mesh")
         picture = run(self.folder, "check", "case.toml", "--set", "mesh.file=run/flow.vtkhdf", ranks=2)
-        self.assert_refused(picture, "flow.vtkhdf", "not a mesh prepared by alphadot partition")
+        self.assert_refused(picture, "flow.vtkhdf", "a picture of a flow or a checkpoint, not a mesh")
 
 
 if __name__ == "__main__":

@@ -1,8 +1,10 @@
 // Mesh::validate() and Mesh::hash(). Expectations: each test breaks a sound box mesh in one known place.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <limits>
+#include <map>
 #include <set>
 #include <string>
 #include <utility>
@@ -140,12 +142,49 @@ TEST(MeshValidate, TellsABodyWithoutThicknessFromOneThatIsMeshedInside) {
   fin.triangles = {across.triangles[8], across.triangles[9]};  // a square with the flow all around
   Mesh parted = sheet;
   sheet.patches.push_back(fin);
-  expect_defect(sheet, "lies between two cells (2 such cases); give a body that has no thickness two sides");
+  expect_defect(
+      sheet,
+      "lies between two cells (2 such cases); a body that has no thickness becomes a wall with two sides");
   // From wall to wall the same surface parts the mesh.
   parted.patches.push_back(across);
   expect_defect(
-      parted, "it parts 54 cells from (0, 0, 0) to (0.5, 1, 1) from 54 cells from (0.5, 0, 0) to (1, 1, 1)");
-  expect_defect(parted, "leave the volume inside the body out of the mesh");
+      parted,
+      "it is a wall between the 54 cells from (0, 0, 0) to (0.5, 1, 1) and the 54 cells from (0.5, 0, "
+      "0) to (1, 1, 1)");
+  expect_defect(parted, "leave the one that is not the flow out of the mesh");
+}
+
+TEST(MeshValidate, NamesTheVolumesOnBothSidesOfAWall) {
+  // The cube in the middle of 27 is the inside of a body; below it another one is, of two volumes.
+  Mesh mesh = box_mesh({.cells = {3, 3, 3}, .upper = {3, 3, 3}});
+  const auto cube_of = [&](std::size_t cell) {
+    Vec3 out;
+    for (const auto point : mesh.cells[cell]) out += 0.25 * mesh.points[static_cast<std::size_t>(point)];
+    return std::array{static_cast<int>(out.x), static_cast<int>(out.y), static_cast<int>(out.z)};
+  };
+  Patch skin{"skin", {}};
+  std::map<std::array<GlobalIndex, 3>, std::vector<std::size_t>> cells_of_face;
+  for (std::size_t cell = 0; cell < mesh.cells.size(); ++cell)
+    for (std::size_t i = 0; i < 4; ++i) {
+      std::array face{mesh.cells[cell][(i + 1) % 4], mesh.cells[cell][(i + 2) % 4],
+                      mesh.cells[cell][(i + 3) % 4]};
+      std::ranges::sort(face);
+      cells_of_face[face].push_back(cell);
+    }
+  for (const auto& [face, cells] : cells_of_face) {
+    const auto is_body = [&](std::size_t cell) { return cube_of(cell) == std::array{1, 1, 1}; };
+    if (cells.size() == 2 && is_body(cells[0]) != is_body(cells[1])) skin.triangles.push_back(face);
+  }
+  ASSERT_EQ(skin.triangles.size(), 12u);
+  mesh.patches.push_back(skin);
+  expect_defect(
+      mesh, "it is a wall between the 156 cells from (0, 0, 0) to (3, 3, 3) and the 6 cells from (1, 1, 1)");
+  expect_defect(mesh, "leave out of the mesh what is the inside of a body: the 6 cells");
+  mesh.volumes = {{"air", 0}, {"solid", 6 * 13}, {"air", 6 * 14}};
+  expect_defect(mesh,
+                "it is a wall between volume \"air\" (156 cells from (0, 0, 0) to (3, 3, 3)) and volume "
+                "\"solid\" (6 cells");
+  expect_defect(mesh, "leave out of the mesh what is the inside of a body: volume \"solid\" (6 cells");
 }
 
 TEST(MeshValidate, RejectsATriangleOnNoCell) {

@@ -30,6 +30,8 @@ class CgnsFile {
   int id() const { return file_; }
   int base() const { return base_; }
   int zone() const { return zone_; }
+  /// The number of the next element.
+  cgsize_t next() const { return next_; }
 
   /// `Number` is what the file keeps of a coordinate: double or float.
   template <class Number = double>

@@ -179,16 +179,28 @@ TEST_F(Cgns, StructuredAndSeveralZonesAreRefused) {
   EXPECT_THAT(error_in([](CgnsFile&) {}), HasSubstr("no zone"));
 }
 
-TEST_F(Cgns, OtherElementsAreRefusedAndCounted) {
-  EXPECT_THAT(
-      error_in([this](CgnsFile& file) {
-        add_volume(file, original_);
-        using Hexahedron = std::array<int, 8>;
-        file.add_section("bricks", CGNS_ENUMV(HEXA_8), std::vector<Hexahedron>(2, {0, 1, 2, 3, 4, 5, 6, 7}));
-        file.add_mixed_section("lid", {{CGNS_ENUMV(QUAD_4), 1, 2, 3, 4}, {CGNS_ENUMV(TRI_3), 1, 2, 3}});
-      }),
-      HasSubstr("the mesh holds 2 HEXA_8, 1 QUAD_4, but only TETRA_4 and TRI_3"));
-  EXPECT_THAT(error_in([this](CgnsFile& file) { file.add_zone(original_); }), HasSubstr("no tetrahedra"));
+TEST_F(Cgns, PolyhedraAreRefusedByName) {
+  const auto refused = AllOf(HasSubstr("the mesh is of polyhedra, which are not read"), HasSubstr("HEXA_8"));
+  for (const auto type : {CGNS_ENUMV(NGON_n), CGNS_ENUMV(NFACE_n)})
+    EXPECT_THAT(error_in([&](CgnsFile& file) {
+                  add_volume(file, original_);
+                  const std::vector<cgsize_t> entries{1, 2, 3, 4}, offsets{0, 4};
+                  const auto last = static_cast<cgsize_t>(original_.cells.size() + 1);
+                  int section = 0;
+                  test::check(cg_poly_section_write(file.id(), file.base(), file.zone(), "faces", type, last,
+                                                    last, 0, entries.data(), offsets.data(), &section));
+                }),
+                AllOf(HasSubstr("section faces holds " + std::string(cg_ElementTypeName(type))), refused));
+}
+
+TEST_F(Cgns, MeshesWithoutAVolumeAreRefused) {
+  EXPECT_THAT(error_in([this](CgnsFile& file) { file.add_zone(original_); }),
+              HasSubstr("no volume elements"));
+  EXPECT_THAT(error_in([this](CgnsFile& file) {
+                file.add_zone(original_);
+                file.add_section("skin", CGNS_ENUMV(TRI_3), original_.patches.front().triangles);
+              }),
+              HasSubstr("it is the surface of a body"));
 }
 
 TEST_F(Cgns, WrongPointsAndConditionsAreNamed) {
@@ -202,16 +214,15 @@ TEST_F(Cgns, WrongPointsAndConditionsAreNamed) {
                 add_volume(file, original_);
                 file.add_condition("wall", CGNS_ENUMV(PointList), {7});
               }),
-              HasSubstr("boundary condition wall lists element 7, which is no TRI_3"));
-  EXPECT_THAT(
-      error_in([this](CgnsFile& file) {
-        add_volume(file, original_);
-        const auto first =
-            file.add_section("Surface", CGNS_ENUMV(TRI_3), original_.patches.front().triangles);
-        file.add_condition("wall", CGNS_ENUMV(PointList), {first, first + 1});
-        file.add_condition("base", CGNS_ENUMV(PointList), {first + 1});
-      }),
-      AllOf(HasSubstr("two boundary conditions, wall and base"), HasSubstr("give every triangle one")));
+              HasSubstr("boundary condition wall lists element 7, which is no face"));
+  EXPECT_THAT(error_in([this](CgnsFile& file) {
+                add_volume(file, original_);
+                const auto first =
+                    file.add_section("Surface", CGNS_ENUMV(TRI_3), original_.patches.front().triangles);
+                file.add_condition("wall", CGNS_ENUMV(PointList), {first, first + 1});
+                file.add_condition("base", CGNS_ENUMV(PointList), {first + 1});
+              }),
+              AllOf(HasSubstr("two boundary conditions, wall and base"), HasSubstr("give every face one")));
   EXPECT_THAT(
       error_in([this](CgnsFile& file) {
         add_volume(file, original_);

@@ -1,68 +1,17 @@
 // Some 800 files: every reader, every mix of elements, every dialect. Each is a box of known volume and
 // areas, cut into cubes, whose elements are numbered at random and partly left-handed; what is read must be a
 // conforming mesh with the right number of tetrahedra, volume, areas and names.
-#include <functional>
-
 #include "io/gmsh_reader.hpp"
-#include "io/readers/mesh_writers.hpp"
+#include "io/readers/corpus.hpp"
 #include "io/su2_reader.hpp"
 
 namespace alphadot {
 namespace {
 
-using testing_support::Column;
-using testing_support::mixed_mesh;
+using test::for_each_mesh;
+using test::given_names;
+using test::numbered;
 using testing_support::MixedMesh;
-using testing_support::MixedMeshSettings;
-
-struct Mix {
-  const char* name;
-  MixedMeshSettings settings;
-};
-
-std::vector<Mix> mixes() {
-  const auto all = {Column::hexahedra, Column::prisms, Column::middles};
-  return {
-      {"hexahedra", {.columns = {Column::hexahedra}}},
-      {"prisms", {.columns = {Column::prisms}}},
-      {"pyramids", {.columns = {Column::middles}, .triangle_percent = 0}},
-      {"tetrahedra", {.columns = {Column::middles}, .triangle_percent = 100}},
-      {"tetrahedra and pyramids", {.columns = {Column::middles}}},
-      {"hexahedra and prisms", {.cubes = {3, 3, 2}, .columns = {Column::hexahedra, Column::prisms}}},
-      {"hexahedra, pyramids, tetrahedra",
-       {.cubes = {3, 3, 2}, .columns = {Column::hexahedra, Column::middles}}},
-      {"prisms, pyramids, tetrahedra", {.cubes = {3, 3, 2}, .columns = {Column::prisms, Column::middles}}},
-      {"all", {.cubes = {4, 4, 3}, .columns = all}}};
-}
-
-using Names = std::array<std::string, 6>;
-
-Names given_names() {
-  Names names;
-  std::copy(test::side_names.begin(), test::side_names.end(), names.begin());
-  return names;
-}
-Names numbered(const std::string& prefix) {
-  Names names;
-  for (std::size_t i = 0; i < 6; ++i) names[i] = prefix + std::to_string(i + 1);
-  return names;
-}
-
-/// Calls act(mesh, description) for every mix, three meshes of each.
-template <class Act>
-int for_each_mesh(Act&& act) {
-  int count = 0;
-  for (const Mix& mix : mixes())
-    for (std::uint32_t seed = 1; seed <= 3; ++seed) {
-      MixedMeshSettings settings = mix.settings;
-      settings.seed = seed;
-      SCOPED_TRACE(testing::Message() << mix.name << ", seed " << seed);
-      act(mixed_mesh(settings));
-      ++count;
-      if (testing::Test::HasFailure()) return count;  // one is enough to read
-    }
-  return count;
-}
 
 TEST(Corpus, Gmsh) {
   std::vector<test::GmshDialect> dialects{{.version = "1", .named = false},
@@ -93,8 +42,8 @@ TEST(Corpus, Gmsh) {
                    << (dialect.curved ? ", curved" : ""));
       const MeshOfFile read = read_gmsh(content, "corpus.msh");
       test::expect_box(read, mesh, dialect.named ? given_names() : numbered("group_"));
-      ASSERT_FALSE(read.regions.empty());
-      EXPECT_EQ(read.regions.front().name, dialect.named && !d.is("2.0") ? "air" : "group_9");
+      ASSERT_FALSE(read.volumes.empty());
+      EXPECT_EQ(read.volumes.front().name, dialect.named && !d.is("2.0") ? "air" : "group_9");
     }
   });
   EXPECT_GE(meshes * std::ssize(dialects), 450);

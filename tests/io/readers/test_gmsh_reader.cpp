@@ -93,12 +93,12 @@ TEST(GmshReader, NamesSurfacesInNoGroupByTheirTags) {
 TEST(GmshReader, TellsTheRegionsOfTheCells) {
   std::string content = gmsh_22(Encoding::text);
   MeshOfFile mesh = read_gmsh(content, "mesh.msh");
-  ASSERT_EQ(mesh.regions.size(), 1u);
-  EXPECT_EQ(mesh.regions[0].name, "fluid");
+  ASSERT_EQ(mesh.volumes.size(), 1u);
+  EXPECT_EQ(mesh.volumes[0].name, "fluid");
   mesh = read_gmsh(with(content, "9 4 2 3 1 ", "9 4 2 5 1 "), "mesh.msh");
-  ASSERT_EQ(mesh.regions.size(), 2u);
-  EXPECT_EQ(mesh.regions[1].name, "group_5");
-  EXPECT_EQ(mesh.regions[1].first_cell, 1);
+  ASSERT_EQ(mesh.volumes.size(), 2u);
+  EXPECT_EQ(mesh.volumes[1].name, "group_5");
+  EXPECT_EQ(mesh.volumes[1].first_cell, 1);
 }
 
 TEST(GmshReader, JoinsGroupsOfOneName) {

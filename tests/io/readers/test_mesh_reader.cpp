@@ -3,11 +3,13 @@
 
 #include <zlib.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 
 #include "io/readers/small_meshes.hpp"
 #include "io/temporary_folder.hpp"
+#include "support/box_mesh.hpp"
 
 namespace alphadot {
 namespace {
@@ -61,10 +63,16 @@ TEST_F(MeshReader, RefusesWhatIsNoKnownMesh) {
 
 TEST_F(MeshReader, NamesWhatOtherProgramsWrite) {
   const std::string pointer = "version https://git-lfs.github.com/spec/v1\noid sha256:4d7a\nsize 12345\n";
-  for (const char* name : {"a.msh", "a.su2", "a.b8.ugrid", "a.ugrid"})
+  for (const char* name : {"a.msh", "a.su2", "a.b8.ugrid", "a.ugrid", "a.cgns", "a.msh.gz", "a"})
     expect_parts(error_in(write(name, pointer)), {"Git LFS pointer", "git lfs pull"});
   expect_parts(error_in(write("b.msh", "(0 \"GAMBIT to Fluent File\")\n(2 3)\n")), {"Fluent", "CGNS"});
-  expect_parts(error_in(write("c.msh", "<!DOCTYPE html>\n<html>")), {"web page"});
+  expect_parts(error_in(write("blank.msh", "\n (0 \"GAMBIT to Fluent File\")\n(2 3)\n")), {"Fluent", "CGNS"});
+  for (const char* page : {"<!DOCTYPE html>\n<html>", "\r\n<!doctype HTML>", "\xef\xbb\xbf<HTML>"})
+    expect_parts(error_in(write("c.msh", page)), {"web page"});
+  expect_parts(error_in(write("points", "/*------- C++ -------*\\\n")), {"OpenFOAM"});
+  expect_parts(error_in(write("wide.su2", std::string("\xff\xfeN\0D\0", 6))), {"UTF-16"});
+  expect_parts(error_in(write("wing.lb8l.ugrid", "")), {"integers of 64 bits"});
+  expect_parts(error_in(write("wing.tar", "")), {"archive", "unpack it"});
   expect_parts(error_in(write("d.msh", "PK\x03\x04")), {"zip archive"});
   expect_parts(error_in(write("wing.unv", "")), {"I-deas", "gmsh FILE -save"});
   expect_parts(error_in(write("wing.stl", "")), {"a surface without a volume"});
@@ -113,6 +121,50 @@ TEST_F(MeshReader, ReadsCompressedFilesAndCapitals) {
   damaged[whole.size() / 2] ^= 0x10;
   expect_parts(error_in(write("cut.msh.gz", damaged)), {"cannot be decompressed"});
   expect_parts(error_in(write("bomb.msh.gz", compressed(std::string(8 << 20, ' ')))), {"100 times its size"});
+}
+
+TEST_F(MeshReader, ABinaryMeshMayBeginWithAnyNumber) {
+  // 40 points of 256 are a bracket in the first byte, as in files of Fluent.
+  constexpr int points = 40, layers = points / 4 - 1;
+  const Mesh box = testing_support::box_mesh({.cells = {1, 1, layers}});
+  ASSERT_EQ(std::ssize(box.points), points);
+  test::Writer writer(Encoding::little_endian);
+  writer.ints({points, 12 + 8 * (layers - 1), 0, 6 * layers, 0, 0, 0});
+  for (const Vec3& at : box.points) writer.reals({at.x, at.y, at.z});
+  const auto put = [&](const auto& elements) {
+    for (const auto& element : elements)
+      for (const GlobalIndex point : element) writer.put(static_cast<std::int32_t>(point + 1));
+  };
+  const auto triangles = box.boundary_triangles();
+  ASSERT_EQ(triangles.size(), 12u + 8 * (layers - 1));
+  put(triangles);
+  for (std::size_t i = 0; i < triangles.size(); ++i) writer.ints({1});
+  put(box.cells);
+  ASSERT_EQ(writer.content()[0], '(');
+  const MeshOfFile mesh = read_mesh(write("a.lb8.ugrid", writer.content()));
+  EXPECT_NO_THROW(mesh.validate());
+  EXPECT_EQ(mesh.cells, box.cells);
+}
+
+TEST_F(MeshReader, LinesThatEndWithACarriageReturn) {
+  for (const std::string& text : {test::gmsh_22(Encoding::text), test::gmsh_41(Encoding::text)}) {
+    std::string old = text;
+    std::ranges::replace(old, '\n', '\r');
+    test::expect_two_cells(read_mesh(write("a.msh", old)), "wall", "far field");
+  }
+  std::string old = test::su2();
+  std::ranges::replace(old, '\n', '\r');
+  test::expect_two_cells(read_mesh(write("a.su2", old)), "wall", "far_field");
+}
+
+TEST_F(MeshReader, NamesBecomeUtf8) {
+  const auto named = [&](const std::string& name) {
+    return read_mesh(write("a.su2", test::with(test::su2(), "= wall", "= " + name))).patches[0].name;
+  };
+  EXPECT_EQ(named("Fl\xfcgel"), "Fl\xc3\xbcgel");      // Latin-1
+  EXPECT_EQ(named("Fl\xc3\xbcgel"), "Fl\xc3\xbcgel");  // UTF-8
+  EXPECT_EQ(named("\xe7\xbf\xbc"), "\xe7\xbf\xbc");    // the same, of three bytes
+  EXPECT_EQ(named("\xe7\xbf"), "\xc3\xa7\xc2\xbf");    // cut short
 }
 
 TEST_F(MeshReader, TellsWhyAFileCannotBeRead) {
