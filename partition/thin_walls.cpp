@@ -96,14 +96,24 @@ class Surroundings {
                                    across_[sides[1]] = sides[0];
                                  } else if (sides.size() == 2 && sides[0] < cell_sides) {
                                    touching_.push_back({places[sides[1] - cell_sides], sides[0] / 4});
-                                 } else if (sides.size() == 3 && has_two_cells && sides[2] >= cell_sides) {
+                                 } else if (sides.size() > 2 && has_two_cells && sides[2] >= cell_sides) {
                                    const Place& place = places[sides[2] - cell_sides];
                                    has_inner_[place.patch] = true;
-                                   if (is_thin[place.patch]) walls_.push_back({place, {sides[0], sides[1]}});
+                                   if (sides.size() == 3 && is_thin[place.patch])
+                                     walls_.push_back({place, {sides[0], sides[1]}});
+                                   else
+                                     for (const Index side : sides.subspan(2))
+                                       keep({places[side - cell_sides], {sides[0], sides[1]}});
                                  }
                                });
     std::ranges::sort(walls_, {},
                       [](const Wall& wall) { return std::pair(wall.place.patch, wall.place.triangle); });
+  }
+
+  /// Leaves an inner triangle what it is.
+  void keep(const Wall& wall) {
+    kept_.push_back(wall.sides);
+    touching_.push_back({wall.place, wall.sides[0] / 4});
   }
 
   void leave_walls_between_parts() {
@@ -111,8 +121,14 @@ class Surroundings {
     for (std::size_t side = 0; side < across_.size(); ++side)
       if (across_[side] >= 0) joined.join(static_cast<Index>(side / 4), across_[side] / 4);
     std::erase_if(walls_, [&](const Wall& wall) {
-      return joined.root(wall.sides[0] / 4) != joined.root(wall.sides[1] / 4);
+      const bool is_between = joined.root(wall.sides[0] / 4) != joined.root(wall.sides[1] / 4);
+      if (is_between) keep(wall);
+      return is_between;
     });
+    for (const auto& [a, b] : kept_) {
+      across_[a] = b;
+      across_[b] = a;
+    }
   }
 
   void join_about_points() {
@@ -147,23 +163,26 @@ class Surroundings {
     return cells_about_.begin[number_[point]] +
            static_cast<Index>(std::ranges::lower_bound(cells, cell) - cells.begin());
   }
-  /// The cells about a point that hang together with `cell`, through faces that have that point.
+  /// The cells about a point that hang together with `cell`, through faces that
+  /// have that point.
   Index fan(GlobalIndex point, Index cell) { return fans_->root(entry(point, cell)); }
 
-  /// A triangle with one cell.
+  /// A triangle that stays, with the cell that it is of.
   struct Touching {
     Place place;
     Index cell;
   };
 
   const Mesh& mesh_;
-  std::vector<Index> across_;         ///< [4 cells] the side on the other side; -1 where a triangle is
-  std::vector<bool> has_inner_;       ///< [patches]
-  std::vector<Wall> walls_;           ///< by place
-  std::vector<Touching> touching_;    ///< those with a point of a wall
-  std::vector<Index> number_;         ///< [points] of the walls' points, others -1
-  Adjacency cells_about_;             ///< each of these points
-  std::optional<DisjointSets> fans_;  ///< of the entries of cells_about_
+  std::vector<Index> across_;               ///< [4 cells] the side on the other side; -1 at
+                                            ///< walls and boundaries
+  std::vector<std::array<Index, 2>> kept_;  ///< sides of inner triangles that are left alone
+  std::vector<bool> has_inner_;             ///< [patches]
+  std::vector<Wall> walls_;                 ///< by place
+  std::vector<Touching> touching_;          ///< those with a point of a wall
+  std::vector<Index> number_;               ///< [points] of the walls' points, others -1
+  Adjacency cells_about_;                   ///< each of these points
+  std::optional<DisjointSets> fans_;        ///< of the entries of cells_about_
 };
 
 /// Cuts the cell at the face of `side` in three about a point of that face.
@@ -186,8 +205,8 @@ void cut_in_three(Mesh& mesh, Index side, GlobalIndex middle) {
   }
 }
 
-/// Cuts triangles with free edges all round, each with its two cells; of several at one cell the first.
-/// Returns how many.
+/// Cuts triangles with free edges all round, each with its two cells; of
+/// several at one cell the first. Returns how many.
 GlobalIndex cut_at_free_edges(Mesh& mesh, Surroundings& surroundings) {
   std::vector<Wall> chosen;
   std::vector<bool> is_taken(mesh.cells.size(), false);
@@ -266,8 +285,10 @@ std::vector<std::string> open_thin_walls(Mesh& mesh, std::span<const std::string
                                 mesh.patches[patch].name, count));
   }
   if (cut > 0)
-    notes.push_back(fmt::format(
-        "{} triangles of walls with two sides, with free edges all round, were cut in three", cut));
+    notes.push_back(
+        fmt::format("{} triangles of walls with two sides, with free edges "
+                    "all round, were cut in three",
+                    cut));
   return notes;
 }
 

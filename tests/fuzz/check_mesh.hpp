@@ -16,11 +16,14 @@ inline std::string_view text(const std::uint8_t* data, std::size_t size) {
   return {reinterpret_cast<const char*>(data), size};
 }
 
+/// Hexahedra, 32 bytes in a file, make twelve tetrahedra of 32 bytes each at most.
+inline constexpr std::size_t share_of_cut_elements = 12;
+
 /// Ends the program when an id of the mesh that `read` gives is out of range, or when a block of memory is
 /// out of proportion to the `size` of the file.
 template <class Read>
 void check_mesh(std::size_t size, Read&& read) {
-  const LargestAllocation limit(size);
+  const LargestAllocation limit(size, share_of_cut_elements);
   try {
     const Mesh mesh = read();
     const auto check = [&](const auto& ids) {

@@ -8,14 +8,14 @@
 
 namespace alphadot::fuzz {
 
-/// While it lives, a block larger than twice the `size` of the input ends the program. 16 KiB of room: what
-/// io/bounded_growth.hpp grants small files; names and messages need less.
+/// While it lives, a block larger than `share` times the `size` of the input ends the program. 16 KiB of
+/// room: what io/bounded_growth.hpp grants small files; names and messages need less.
 class LargestAllocation {
  public:
-  explicit LargestAllocation(std::size_t size) {
+  explicit LargestAllocation(std::size_t size, std::size_t share = 2) {
     [[maybe_unused]] static const int hooks =
         __sanitizer_install_malloc_and_free_hooks(check, [](const volatile void*) {});
-    limit_ = 2 * size + 16384;
+    limit_ = share * size + 16384;
   }
   ~LargestAllocation() { limit_ = 0; }
   LargestAllocation(const LargestAllocation&) = delete;

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <map>
+#include <random>
 
 #include "core/error.hpp"
 #include "partition/thin_walls.hpp"
@@ -197,6 +199,67 @@ TEST(ThinWalls, ASurfaceThatPartsTheMeshIsLeftForValidation) {
   open(mesh, {"across"});
   EXPECT_EQ(mesh.hash(), hash);
   EXPECT_THAT(defect(mesh), HasSubstr("it is a wall between the 192 cells"));
+}
+
+TEST(ThinWalls, OtherInnerSurfacesStayWhole) {
+  // A fin beside one that is not named, and beside a wall between two parts.
+  for (const bool parts : {false, true}) {
+    Mesh mesh = box();
+    mesh.patches.push_back(sheet(mesh, "fin", 2, 2, [](const Vec3& at) { return at.x > 1 && at.x < 2; }));
+    mesh.patches.push_back(
+        sheet(mesh, "other", 0, 2, [&](const Vec3& at) { return parts || (at.z > 1 && at.z < 3); }));
+    const auto other = mesh.patches[7].triangles;
+    open(mesh, parts ? std::vector<std::string>{"fin", "other"} : std::vector<std::string>{"fin"});
+    EXPECT_THAT(defect(mesh), HasSubstr(parts ? "it is a wall between" : "patch \"other\""));
+    EXPECT_THAT(defect(mesh), HasSubstr("(" + std::to_string(other.size()) + " such cases)"));
+    EXPECT_THAT(defect(mesh), testing::Not(HasSubstr("is not a face")));
+    EXPECT_NEAR(area_of(mesh, mesh.patches[6]), 2 * 4, 1e-12);
+  }
+}
+
+/// Any set of inner faces: the mesh is sound then and has both sides of each, or the walls part it and
+/// validation says so.
+TEST(ThinWalls, RandomSetsOfFaces) {
+  const Mesh cubes = testing_support::box_mesh({.cells = {3, 3, 3}, .upper = {3, 3, 3}});
+  std::map<std::array<GlobalIndex, 3>, int> sides;
+  for (const auto& cell : cubes.cells)
+    for (std::size_t i = 0; i < 4; ++i) {
+      std::array face{cell[(i + 1) % 4], cell[(i + 2) % 4], cell[(i + 3) % 4]};
+      std::ranges::sort(face);
+      ++sides[face];
+    }
+  std::vector<std::array<GlobalIndex, 3>> inner;
+  for (const auto& [face, count] : sides)
+    if (count == 2) inner.push_back(face);
+  std::mt19937 random(20261130);
+  int opened = 0, parted = 0;
+  for (int set = 0; set < 2000; ++set) {
+    SCOPED_TRACE(testing::Message() << "set " << set);
+    Mesh mesh = cubes;
+    mesh.patches.push_back({"fin", {}});
+    mesh.patches.push_back({"wing", {}});
+    // From a few faces to nearly all of them, which encloses cells.
+    const unsigned share = 1 + random() % (set % 2 == 0 ? 10 : 100);
+    for (const auto& face : inner)
+      if (random() % 100 < share) mesh.patches[6 + random() % 2].triangles.push_back(face);
+    if (mesh.patches[6].triangles.empty() || mesh.patches[7].triangles.empty()) continue;
+    const Real area = area_of(mesh, mesh.patches[6]) + area_of(mesh, mesh.patches[7]);
+    open(mesh, {"fin", "wing"});
+    const std::string found = defect(mesh);
+    if (found.empty()) {
+      EXPECT_NEAR(area_of(mesh, mesh.patches[6]) + area_of(mesh, mesh.patches[7]), 2 * area, 1e-9);
+      ++opened;
+    } else {
+      EXPECT_THAT(found, HasSubstr("it is a wall between"));
+      EXPECT_THAT(found, testing::Not(HasSubstr("is not a face")));
+      EXPECT_THAT(found, testing::Not(HasSubstr("neither a second cell")));
+      ++parted;
+    }
+    EXPECT_NEAR(volume_of(mesh), 27, 1e-9);
+    if (testing::Test::HasFailure()) return;
+  }
+  EXPECT_GT(opened, 500);
+  EXPECT_GT(parted, 100);
 }
 
 TEST(ThinWalls, WrongNamesAreTold) {
