@@ -25,6 +25,13 @@ A description is a TOML file:
   span = 0.1
   thickness_ratio = 0.05
 
+or names the file with the body's surface, from CAD or a triangulation without holes; its lengths, axes and components are as in the file
+unless keys of [surface] say otherwise. Such a file may also stand in place of the description.
+
+  flight = {mach = 2}
+  [surface]
+  file = "missile.step"
+
 Exit codes: 0 everything is written, 1 an error, 2 wrong command line. Needs Debian's python3-gmsh, python3-numpy and
 python3-matplotlib (hence /usr/bin/python3).
 """
@@ -32,11 +39,13 @@ python3-matplotlib (hence /usr/bin/python3).
 from __future__ import annotations
 
 import argparse
+import os
 import re
 import sys
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # its products are small: more threads only wait for each other
 
 from meshing.limits import FEWEST, LEVELS, MODELS, MOST
 
@@ -67,7 +76,7 @@ def parse() -> argparse.Namespace:
         prog="alphadot mesh", description=__doc__.replace("mesh.py", "alphadot mesh"),
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )  # fmt: skip
-    parser.add_argument("description", type=Path, nargs="?", metavar="DESCRIPTION", help="missile.toml, or a design of OpenRocket (.ork) or RASAero II (.CDX1)")
+    parser.add_argument("description", type=Path, nargs="?", metavar="DESCRIPTION", help="missile.toml, a design of OpenRocket (.ork) or RASAero II (.CDX1), or a surface: STEP, IGES, BREP, STL, OBJ, .tri")
     parser.add_argument("-o", "--output", type=Path, metavar="FOLDER", help="default: the description's name, here")
     sizes = parser.add_mutually_exclusive_group()
     levels = ", ".join(f"{name} {cells:,}" for name, cells in LEVELS.items())

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from meshing.mesher import Made
 from meshing.missile import Missile
+from meshing.shape import Shape
 
 KINDS = {"base": "jet", "symmetry": "symmetry", "farfield": "farfield"}  # of patches that are not walls
 
 
-def case_text(missile: Missile, made: Made, mesh_file: str, coarser: list[str], origin: str) -> str:
+def case_text(missile: Missile | Shape, made: Made, mesh_file: str, coarser: list[str], origin: str) -> str:
     """The text of a case for `mesh_file`, with `coarser` meshes for the uncertainty; `origin`: the description's name."""
     reference = missile.reference
     low, high = missile.flight.mach
@@ -43,7 +44,7 @@ def case_text(missile: Missile, made: Made, mesh_file: str, coarser: list[str], 
     return "\n".join(lines) + "\n"
 
 
-def fin_sets(missile: Missile) -> list[str]:
+def fin_sets(missile: Missile | Shape) -> list[str]:
     return list(dict.fromkeys(panel.set_name for panel in missile.panels))
 
 

@@ -6,17 +6,20 @@ Where it stands: `SCHEMAS` has every key with kind, default and meaning (`alphad
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from meshing import planforms, profiles
-from meshing.keys import REQUIRED, Key, Name, Number, Numbers, Points, Schema, Switch, Text, Whole, Word, described, read_table
+from meshing.keys import REQUIRED, Axes, Key, Name, Number, Numbers, Points, Schema, Switch, Text, Whole, Word, described, read_table
 from meshing.missile import Flight, Missile, Panel, Reference, ring
 from meshing.planforms import Planform
 from meshing.profiles import Body, Segment
 from meshing.sections import KINDS, Section
+from meshing.shape import Shape
+from meshing.shape_file import METRES, SUFFIXES, Box, read_shape
 from meshing.tetrahedra import MeshError
 from meshing.toml_file import DescriptionError, Place, TomlFile
 
@@ -34,7 +37,7 @@ FLIGHT: Schema = {
     "alpha": Key(Number(least=0.0, most=30.0), 3.0, "the largest angle of attack or sideslip, degrees"),
 }
 REFERENCE: Schema = {
-    "length": Key(LENGTH, None, "for moments and rates; the body's largest diameter unless given"),
+    "length": Key(LENGTH, None, "for moments and rates; the body's largest diameter unless given, of a [surface] that of its largest cross section"),
     "area": Key(LENGTH, None, "pi / 4 times the square of the body's largest diameter unless given"),
     "moment_center": Key(Numbers(Number(), 1, 3, single=True), None, "x, or x, y, z; half of the length unless given"),
 }
@@ -82,6 +85,17 @@ FINS: Schema = PLANFORM | {
         Numbers(Number(least=-30.0, most=30.0), 1, 12, single=True), [0.0],
         "of each panel, degrees; positive on all of them rolls to port, [0, d, 0, -d] of four in + raises the nose of the fins"),
 }  # fmt: skip
+SURFACE: Schema = {
+    "file": Key(Text(), REQUIRED, "beside this one: STEP, IGES, BREP, STL, OBJ or Cart3D's .tri; in place of [[body]] and [[fins]]"),
+    "axes": Key(Axes(), ["x", "y", "z"], "of the file, that point aft, to starboard and up"),
+    "sharp": Key(Number(least=1.0, most=80.0), 30.0, "degrees by which triangles turn where there is an edge to keep, above all of a mesh that is not CAD"),
+    "base": Key(Switch(), True, "do faces between edges that point straight aft become the patch 'base'?"),
+}
+PARTS: Schema = {
+    "name": Key(Name(), REQUIRED, "of the patch: what of the surface has its middle in the box"),
+    "low": Key(Numbers(Number(), 3, 3), REQUIRED, "corner of the box: the least x, y and z, after axes"),
+    "high": Key(Numbers(Number(), 3, 3), REQUIRED, "the opposite corner"),
+}
 WINGS: Schema = PLANFORM | {
     "height": Key(Number(), 0.0, "z of the root"),
     "dihedral": Key(Number(least=-60.0, most=60.0), 0.0, "degrees"),
@@ -89,6 +103,8 @@ WINGS: Schema = PLANFORM | {
 }
 SCHEMAS = {
     "": ("at the top", TOP), "flight": ("[flight]", FLIGHT), "reference": ("[reference]", REFERENCE),
+    "surface": ("[surface]: a body from a file, in place of [[body]], [[fins]] and [[wings]]", SURFACE),
+    "parts": ("[[parts]]: components of a [surface] by boxes", PARTS),
     "body": ("[[body]]: segments of the body of revolution, from the nose", BODY),
     "fins": ("[[fins]]: a set of equal panels around the body", FINS),
     "wings": ("[[wings]]: a pair of panels, each the mirror image of the other about y = 0", WINGS),
@@ -103,12 +119,13 @@ def describe_keys() -> str:
 
 def is_description(content: dict) -> bool:
     """Does a TOML file's content describe a missile, not a case?"""
-    return "body" in content
+    return "body" in content or "surface" in content
 
 
-def read_description(path: Path) -> Missile:
+def read_description(path: Path) -> Missile | Shape:
     """Reads and checks a description. Raises DescriptionError with all that is wrong."""
-    return _Reader(TomlFile(path)).missile()
+    file = TomlFile(path)
+    return _Reader(file).shape() if "surface" in file.content else _Reader(file).missile()
 
 
 class _Reader:
@@ -156,8 +173,33 @@ class _Reader:
         self.notes.append(f"lengths are in {values['unit']}, and so is the mesh")
         return Missile(
             values["title"] or self.file.path.stem, values["unit"], body, tuple(panels), flight,
-            self.reference(reference, body), tuple(self.notes),
+            self.reference(reference, body.diameter, 0.0, body.length), tuple(self.notes),
         )  # fmt: skip
+
+    def shape(self) -> Shape:
+        content = self.file.content
+        top = {key: value for key, value in content.items() if key not in TABLES}
+        values = read_table(self.file, Place(""), top, TOP, self.problems)
+        flight, reference, given, parts = self.flight(), self.table("reference"), self.table("surface"), self.tables("parts")
+        for table in ("body", "fins", "wings"):
+            if table in content:
+                self.complain(Place(table, 0), "", f"a description has either a [surface] or [[{table}]]")
+        if values["unit"] == "d":
+            self.complain(Place(""), "unit", f"of a [surface] must be one of {', '.join(METRES)}")
+        self.stop_if_wrong()
+        path = self.file.path.parent / given["file"]
+        if path.suffix.lower() not in SUFFIXES:
+            self.complain(Place("surface"), "file", f"what is '{path.suffix}'? A surface is in one of {', '.join(SUFFIXES)}")
+        self.stop_if_wrong()
+        boxes = tuple(Box(part["name"], np.array(part["low"]), np.array(part["high"])) for _, part in parts)
+        shape = read_shape(path, values["title"] or self.file.path.stem, values["unit"], tuple(given["axes"]), given["base"], boxes, given["sharp"])
+        for (place, part), box in zip(parts, boxes):
+            if box.name not in shape.surface.names:
+                self.complain(place, "low", f"nothing of the surface has its middle in the box of '{box.name}'")
+        self.stop_if_wrong()
+        start = float(shape.surface.points[:, 0].min())
+        made = self.reference(reference, shape.diameter, start, shape.length)
+        return replace(shape, flight=flight, reference=made, notes=(*shape.notes, *self.notes))
 
     def flight(self) -> Flight:
         values = self.table("flight")
@@ -168,11 +210,10 @@ class _Reader:
             self.complain(Place("flight"), "mach", "the lowest Mach number comes first")
         return Flight((low, high), values["alpha"])
 
-    def reference(self, values: dict[str, Any], body: Body) -> Reference:
-        diameter = body.diameter
+    def reference(self, values: dict[str, Any], diameter: float, start: float, length: float) -> Reference:
         center = values["moment_center"]
         if center is None:
-            center = [0.5 * body.length]
+            center = [start + 0.5 * length]
             self.notes.append(f"no moment_center in [reference]: half of the length, x = {center[0]:g}")
         center = [*center, 0.0, 0.0][:3]
         return Reference(values["length"] or diameter, values["area"] or 0.25 * math.pi * diameter**2, tuple(center))

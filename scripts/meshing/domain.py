@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from exact import NoExactFlow, cone
-from meshing.missile import Missile
+from meshing.missile import Flight, Missile
 
 SPHERE_BELOW = 1.2  # Mach number
 SPHERE = 50.0  # its radius, in lengths of the body
@@ -80,9 +80,9 @@ class Domain:
     shock: Shock | None
     beta: float
 
-    def facts(self, missile: Missile, unit: float) -> list[str]:
-        """What a user should know of it, lengths times `unit`."""
-        length, low = missile.body.length, missile.flight.mach[0]
+    def facts(self, length: float, flight: Flight, unit: float) -> list[str]:
+        """What a user should know of it: lengths times `unit`, `length` of the body in the unit."""
+        length, low = length / unit, flight.mach[0]
         if self.arc:
             radius = self.profile[0, 0] - 0.5 * length
             return [f"far field: sphere of {radius / length:g} body lengths, radius {radius * unit:.4g}"]
@@ -110,9 +110,10 @@ def domain_of(missile: Missile) -> Domain:
     first = 0.35
     start = min(shock.start, 0.0) - max(0.6, first / slope)
     radius = first + (end - start) * slope
-    # The fins' own shocks start at their tips, which the bow shock may not enclose.
-    for panel in missile.panels:
-        reach = float(panel.tip + math.hypot(*panel.origin) + 0.3 - slope * (panel.x + panel.planform.lead.min() - start))
+    # The fins' own shocks start at their tips, which the bow shock may not enclose; nor a body that is wide behind a slender nose.
+    tips = [(panel.x + panel.planform.lead.min(), panel.tip + math.hypot(*panel.origin)) for panel in missile.panels]
+    for x, r in (*tips, *missile.body.outline()):
+        reach = float(r + 0.3 - slope * (x - start))
         if reach > first:
             radius += reach - first
             first = reach

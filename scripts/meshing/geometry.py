@@ -84,6 +84,27 @@ def _fluid_curves(body: Body, domain: Domain) -> list[int]:
     return curves
 
 
+def outer_solids(domain: Domain, sector: Sector, first: float) -> list[tuple[int, int]]:
+    """All that the far field encloses in the sector, without a body, in pieces side by side; the divisions of a whole one from the angle
+    `first`, degrees."""
+    occ = gmsh.model.occ
+    first, last = (occ.addPoint(*domain.profile[i], 0.0) for i in (0, -1))
+    curves = [occ.addLine(last, first)]
+    if domain.arc:
+        middle = 0.5 * float(domain.profile[:, 0].sum())
+        centre, top = occ.addPoint(middle, 0.0, 0.0), occ.addPoint(middle, 0.5 * float(np.ptp(domain.profile[:, 0])), 0.0)
+        curves += [occ.addCircleArc(first, centre, top), occ.addCircleArc(top, centre, last)]
+    else:
+        inner = [occ.addPoint(x, r, 0.0) for x, r in domain.profile[1:-1]]
+        row = [first, *inner, last]
+        curves += [occ.addLine(a, b) for a, b in zip(row, row[1:])]
+    begin, end = sector.angles
+    count = max(round((end - begin) / 90.0), 1)
+    if end - begin == 360.0:
+        begin, end = begin + first, end + first
+    return _swept(_profile_face(curves), [float(angle) for angle in np.linspace(begin, end, count + 1)])
+
+
 def _profile_face(curves: list[int]) -> int:
     occ = gmsh.model.occ
     return occ.addPlaneSurface([occ.addCurveLoop(curves)])
@@ -92,6 +113,15 @@ def _profile_face(curves: list[int]) -> int:
 def _revolved(face: int, angles: list[float]) -> list[tuple[int, int]]:
     """The solid that the face sweeps about the axis from the first of some angles to the last, its surfaces divided at the others;
     degrees from starboard (y) towards up (z)."""
+    solids = _swept(face, angles)
+    gmsh.option.setNumber("Geometry.OCCUnionUnify", 0)  # keeps the divisions
+    if len(solids) > 1:
+        solids, _ = gmsh.model.occ.fuse(solids[:1], solids[1:])
+    return solids
+
+
+def _swept(face: int, angles: list[float]) -> list[tuple[int, int]]:
+    """The solids that the face sweeps from each of some angles to the next."""
     occ = gmsh.model.occ
     solids = []
     for begin, end in zip(angles, angles[1:]):
@@ -100,9 +130,6 @@ def _revolved(face: int, angles: list[float]) -> list[tuple[int, int]]:
         swept = occ.revolve([one], 0, 0, 0, 1, 0, 0, math.radians(end - begin))
         solids += [entity for entity in swept if entity[0] == 3]
     occ.remove([(2, face)], recursive=False)
-    gmsh.option.setNumber("Geometry.OCCUnionUnify", 0)  # keeps the divisions
-    if len(solids) > 1:
-        solids, _ = occ.fuse(solids[:1], solids[1:])
     return solids
 
 
@@ -276,6 +303,18 @@ def _polyhedron(outlines: list[np.ndarray]) -> int:
     return occ.addVolume([occ.addSurfaceLoop(faces)])
 
 
+def is_far(domain: Domain, points: np.ndarray) -> bool:
+    """Do all of the points (n, 3) lie on the far field?"""
+    x, r = points[:, 0], np.hypot(points[:, 1], points[:, 2])
+    profile = domain.profile
+    if domain.arc:
+        middle, radius = 0.5 * profile[:, 0].sum(), 0.5 * np.ptp(profile[:, 0])
+        return bool(np.all(np.abs(np.hypot(x - middle, r) - radius) < 1e-3 * radius))
+    (end, last), (start, first) = profile[1], profile[2]
+    side = np.abs(r - (first + (x - start) * (last - first) / (end - start)))
+    return bool(np.all(np.abs(x - end) < 1e-6) or np.all(np.abs(x - start) < 1e-6) or np.all(side < 1e-5 * max(last, 1.0)))
+
+
 class Classifier:
     """Tells which component the points of a face of the fluid belong to."""
 
@@ -294,7 +333,7 @@ class Classifier:
         for axis, name in ((1, "symmetry_y"), (2, "symmetry_z")):
             if axis in self.sector.planes and np.all(np.abs(points[:, axis]) < 1e-7):
                 return name
-        if self._is_far(x, r):
+        if is_far(self.domain, points):
             return "farfield"
         if np.ptp(x) < 1e-7:
             if abs(x[0] - body.length) < 1e-6 and r.max() < body.base_radius + 1e-6:
@@ -307,15 +346,6 @@ class Classifier:
             if within and np.all(np.abs(r - np.interp(x, outline[:, 0], outline[:, 1])) < ON_BODY):
                 return name
         return self._fin(points)
-
-    def _is_far(self, x: np.ndarray, r: np.ndarray) -> bool:
-        profile = self.domain.profile
-        if self.domain.arc:
-            middle, radius = 0.5 * profile[:, 0].sum(), 0.5 * np.ptp(profile[:, 0])
-            return bool(np.all(np.abs(np.hypot(x - middle, r) - radius) < 1e-3 * radius))
-        (end, last), (start, first) = profile[1], profile[2]
-        side = np.abs(r - (first + (x - start) * (last - first) / (end - start)))
-        return bool(np.all(np.abs(x - end) < 1e-6) or np.all(np.abs(x - start) < 1e-6) or np.all(side < 1e-5 * max(last, 1.0)))
 
     def _step_at(self, x: float) -> tuple[float, float, str] | None:
         """Radii of a step at x, and its patch: a forward-facing one is a wall, one that faces backwards a base."""

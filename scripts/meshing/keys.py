@@ -151,6 +151,24 @@ class Points:
         return f"a list of at least {self.least} pairs of numbers, such as [[0, 0], [1, 0.5]]"
 
 
+@dataclass(frozen=True)
+class Axes:
+    """Three of x, y and z, each once and with a sign, such as ["-x", "y", "-z"], that a rotation makes of them."""
+
+    def check(self, value: Any) -> list[str]:
+        words = value if isinstance(value, list) and len(value) == 3 and all(isinstance(word, str) for word in value) else []
+        if not words or sorted(word.removeprefix("-") for word in words) != ["x", "y", "z"]:
+            raise Refused(f"must be {self.text()}")
+        order = ["xyz".index(word[-1]) for word in words]
+        turns = sum(order[i] > order[j] for i, j in ((0, 1), (0, 2), (1, 2))) + sum(word.startswith("-") for word in words)
+        if turns % 2:
+            raise Refused("is a mirror image, no rotation: turn one sign about, or swap two axes")
+        return words
+
+    def text(self) -> str:
+        return 'three axes with their signs, such as ["-x", "y", "-z"]'
+
+
 REQUIRED = object()  # the default of a key that must be there
 
 

@@ -138,6 +138,16 @@ class Missile:
     reference: Reference
     notes: tuple[str, ...] = field(default=())  # what was left out, assumed or missing
 
+    @property
+    def length(self) -> float:
+        """Of the body."""
+        return self.body.length
+
+    @property
+    def diameter(self) -> float:
+        """The body's largest one."""
+        return self.body.diameter
+
     def is_symmetric(self, axis: int) -> bool:
         """Is it its own mirror image about y = 0 (axis 1) or z = 0 (axis 2)?"""
         return sorted(panel.image(0) for panel in self.panels) == sorted(panel.image(axis) for panel in self.panels)

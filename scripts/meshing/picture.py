@@ -15,6 +15,7 @@ from matplotlib.collections import PolyCollection
 from meshing.case_file import KINDS, fin_sets
 from meshing.mesher import Made
 from meshing.missile import Missile
+from meshing.shape import Shape
 
 BODY, BASE = "#b8c9d9", "#c98a8a"
 FINS = ("#e3b778", "#9cc49a", "#c3a6d4", "#d9c37e", "#8fbcc4")
@@ -23,7 +24,7 @@ VIEWS = {"from starboard": (0, 2, np.array([0.0, 1.0, 0.0])), "from above": (0, 
          "from behind": (1, 2, np.array([1.0, 0.0, 0.0]))}  # fmt: skip
 
 
-def draw(missile: Missile, made: Made, path: Path) -> None:
+def draw(missile: Missile | Shape, made: Made, path: Path) -> None:
     """Write the picture, as PNG."""
     triangles, colours = _surface(missile, made)
     low, high = triangles.min(axis=(0, 1)), triangles.max(axis=(0, 1))
@@ -40,13 +41,13 @@ def draw(missile: Missile, made: Made, path: Path) -> None:
         axes.tick_params(labelsize=7)
     _dimensions(figure.axes, missile, low, high)
     figure.suptitle(
-        f"{missile.title}: {len(made.mesh.tets):,} tetrahedra ({made.model} model), wall cells {made.h * missile.body.diameter:.3g} "
+        f"{missile.title}: {len(made.mesh.tets):,} tetrahedra ({made.model} model), wall cells {made.h * missile.diameter:.3g} "
         f"{missile.unit}; lengths in {missile.unit}", fontsize=9)  # fmt: skip
     figure.savefig(path, dpi=110)
     plt.close(figure)
 
 
-def _surface(missile: Missile, made: Made) -> tuple[np.ndarray, np.ndarray]:
+def _surface(missile: Missile | Shape, made: Made) -> tuple[np.ndarray, np.ndarray]:
     """Triangles (n, 3, 3) of the whole surface, mirrored where the mesh is a half, and a colour for each."""
     sets = fin_sets(missile)
     of_panel = {panel.name: FINS[sets.index(panel.set_name) % len(FINS)] for panel in missile.panels}
@@ -79,22 +80,23 @@ def _view(axes: Axes, triangles: np.ndarray, colours: np.ndarray, across: int, u
     axes.set_ylabel("xyz"[up], fontsize=8)
 
 
-def _dimensions(axes: list[Axes], missile: Missile, low: np.ndarray, high: np.ndarray) -> None:
+def _dimensions(axes: list[Axes], missile: Missile | Shape, low: np.ndarray, high: np.ndarray) -> None:
     """Length, diameter, span and moment centre."""
     side, above, behind = axes
     arrow = {"arrowstyle": "<->", "linewidth": 0.7}
     gap = 0.08 * (high[2] - low[2])
-    body, center = missile.body, missile.reference.moment_center
+    center = missile.reference.moment_center
 
     def measure(on: Axes, start: tuple[float, float], end: tuple[float, float], text: str) -> None:
         on.annotate("", start, end, arrowprops=arrow)
         on.annotate(text, (0.5 * (start[0] + end[0]), 0.5 * (start[1] + end[1])), fontsize=7, ha="center", va="center",
                     bbox={"boxstyle": "square,pad=0.1", "facecolor": "white", "edgecolor": "none"})  # fmt: skip
 
-    measure(side, (0.0, high[2] + gap), (body.length, high[2] + gap), f"length {body.length:.4g}")
+    measure(side, (low[0], high[2] + gap), (low[0] + missile.length, high[2] + gap), f"length {missile.length:.4g}")
     side.set_ylim(low[2] - gap, high[2] + 2.0 * gap)
     side.plot(center[0], center[2], marker="P", color="#b02020", markersize=5)
-    measure(above, (0.45 * body.length, -0.5 * body.diameter), (0.45 * body.length, 0.5 * body.diameter), f"d {body.diameter:.4g}")
+    middle = low[0] + 0.45 * missile.length
+    measure(above, (middle, -0.5 * missile.diameter), (middle, 0.5 * missile.diameter), f"d {missile.diameter:.4g}")
     for name in fin_sets(missile):
         panel = next(p for p in missile.panels if p.set_name == name)
         above.annotate(f"{name}: root {panel.planform.chord[0]:.4g}, tip {panel.planform.chord[-1]:.4g}, span {panel.planform.span:.4g}",

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import math
 import os
 import sys
 import time
@@ -16,9 +17,11 @@ from meshing.description import describe_keys, read_description
 from meshing.files import write
 from meshing.limits import LEVELS
 from meshing.mesher import Made, make_mesh
-from meshing.missile import Flight, Missile
+from meshing.missile import Flight, Missile, Reference
 from meshing.openrocket import read_openrocket
 from meshing.rasaero import read_rasaero
+from meshing.shape import Shape
+from meshing.shape_file import SUFFIXES, read_shape
 from meshing.tetrahedra import MeshError
 from meshing.toml_file import DescriptionError
 
@@ -40,7 +43,7 @@ def main(arguments: argparse.Namespace) -> int:
     return 0
 
 
-def read_missile(path: Path, stages: list[int] | None) -> Missile:
+def read_missile(path: Path, stages: list[int] | None) -> Missile | Shape:
     """A description in any format, told by the end of its name. Raises DescriptionError."""
     suffix = path.suffix.lower()
     if suffix == ".ork":
@@ -51,10 +54,24 @@ def read_missile(path: Path, stages: list[int] | None) -> Missile:
         return read_description(path)
     if suffix == ".cdx1":
         return read_rasaero(path)
-    raise DescriptionError([f"{path}: what is '{path.suffix}'? Descriptions are .toml, .ork of OpenRocket, or .CDX1 of RASAero II"])
+    if suffix in SUFFIXES:
+        return bare_shape(path)
+    raise DescriptionError([
+        f"{path}: what is '{path.suffix}'? Descriptions are .toml, .ork of OpenRocket, .CDX1 of RASAero II, or a surface in one of "
+        + ", ".join(SUFFIXES)
+    ])  # fmt: skip
 
 
-def write_all(missile: Missile, arguments: argparse.Namespace) -> None:
+def bare_shape(path: Path) -> Shape:
+    """A file with a surface and nothing beside it: everything else by default."""
+    shape = read_shape(path)
+    diameter, middle = shape.diameter, float(shape.surface.points[:, 0].min()) + 0.5 * shape.length
+    reference = Reference(diameter, 0.25 * math.pi * diameter**2, (middle, 0.0, 0.0))
+    note = f"reference: the circle of the largest cross section; moments about half of the length, x = {middle:.4g}: a [surface] in a .toml can say more"
+    return replace(shape, reference=reference, notes=(*shape.notes, note))
+
+
+def write_all(missile: Missile | Shape, arguments: argparse.Namespace) -> None:
     """Makes and writes everything; each file appears under its name when it is complete."""
     folder = arguments.output or Path(arguments.description.stem)
     folder.mkdir(parents=True, exist_ok=True)
@@ -87,13 +104,13 @@ def write_all(missile: Missile, arguments: argparse.Namespace) -> None:
     print(f"next: alphadot derivatives {folder / 'case.toml'} --set freestream.mach={missile.flight.mach[1]:g}")
 
 
-def levels(names: list[str], missile: Missile, model: str | None) -> list[tuple[str, int]]:
+def levels(names: list[str], missile: Missile | Shape, model: str | None) -> list[tuple[str, int]]:
     """Levels with their numbers of cells, the finest first; twice as many for a full model."""
     full = model == "full" or (model is None and not missile.is_symmetric(1))
     return sorted(((name, LEVELS[name] * (2 if full else 1)) for name in set(names)), key=lambda level: -level[1])
 
 
-def made_or_refused(missile: Missile, model: str | None, cells: int) -> Made:
+def made_or_refused(missile: Missile | Shape, model: str | None, cells: int) -> Made:
     """The mesh, or a MeshError; gmsh raises bare exceptions."""
     try:
         return make_mesh(missile, model, cells)

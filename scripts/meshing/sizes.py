@@ -9,6 +9,7 @@ tail nothing comes back, and cells grow twice as fast.
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 
 import numpy as np
 
@@ -127,24 +128,25 @@ class SizeField:
         points, volumes = self._sampling(sector)
         return PER_VOLUME * float(np.sum(volumes / self(points) ** 3))
 
-    def _sampling(self, sector: Sector) -> tuple[np.ndarray, np.ndarray]:
-        """Points in a sector of the fluid, and the volume that each stands for; closer together near the wall."""
+    def _sampling(self, sector: Sector, finer: float = 1.0) -> tuple[np.ndarray, np.ndarray]:
+        """Points in a sector of the fluid, and the volume that each stands for; closer together near the wall. `finer`: how many times as
+        close as usual, in each direction."""
         length, profile = self.missile.body.length, self.domain.profile
         first, last = float(profile[:, 0].min()), float(profile[:, 0].max())
-        out = lambda end, start: start + (end - start) * np.linspace(0.0, 1.0, 20)[1:] ** 2
-        x = np.unique(np.concatenate([np.linspace(0.0, self._tail, 91), out(first, 0.0), out(last, self._tail)]))
+        out = lambda end, start: start + (end - start) * np.linspace(0.0, 1.0, round(19 * finer) + 1)[1:] ** 2
+        x = np.unique(np.concatenate([np.linspace(0.0, self._tail, round(90 * finer) + 1), out(first, 0.0), out(last, self._tail)]))
         middle, width = 0.5 * (x[1:] + x[:-1]), np.diff(x)
         if self.domain.arc:
             top = np.sqrt(np.maximum((0.5 * (last - first)) ** 2 - (middle - 0.5 * length) ** 2, 0.0))
         else:
             top = np.interp(middle, profile[1:3][::-1, 0], profile[1:3][::-1, 1])
         bottom = np.where((middle > 0.0) & (middle < length), np.interp(middle, self._x, self._r), 0.0)
-        t = np.linspace(0.0, 1.0, 33) ** (4.0 if self.domain.arc else 2.0)
+        t = np.linspace(0.0, 1.0, round(32 * finer) + 1) ** (4.0 if self.domain.arc else 2.0)
         radii = bottom[:, None] + (top - bottom)[:, None] * t
         ring = 0.5 * (radii[:, 1:] ** 2 - radii[:, :-1] ** 2) * width[:, None]
         mean = 0.5 * (radii[:, 1:] + radii[:, :-1])
         begin, end = sector.angles
-        count = max(int(round((end - begin) / 7.5)), 1)
+        count = max(int(round((end - begin) * finer / 7.5)), 1)
         step = math.radians(end - begin) / count
         angle = math.radians(begin) + step * (np.arange(count) + 0.5)
         shape = (*mean.shape, count)
@@ -153,10 +155,10 @@ class SizeField:
         return points.reshape(-1, 3), np.broadcast_to((ring * step)[:, :, None], shape).reshape(-1)
 
 
-def size_field(missile: Missile, domain: Domain, sector: Sector, cells: float) -> SizeField:
-    """The size field of a missile, stretched for meshes of about `cells` tetrahedra in the sector."""
+def size_field(make: Callable[[float], SizeField], sector: Sector, cells: float) -> SizeField:
+    """One of the size fields that `make` gives for a stretch, stretched for meshes of about `cells` tetrahedra in the sector."""
     stretch = 1.0
     for _ in range(2):
-        h = (SizeField(missile, domain, stretch).cells(sector) / cells) ** (1.0 / 3.0)
+        h = (make(stretch).cells(sector) / cells) ** (1.0 / 3.0)
         stretch = max(h / USUAL, 1.0)
-    return SizeField(missile, domain, stretch)
+    return make(stretch)
