@@ -88,6 +88,8 @@ def parse() -> argparse.Namespace:
     parser.add_argument("--mach", type=mach_range, metavar="LOW:HIGH", help="in place of the description's range")
     parser.add_argument("--model", choices=MODELS, help="default: half where the missile is symmetric about y = 0")
     parser.add_argument("--stages", type=int, nargs="+", metavar="N", help="of an .ork file, 1 at the nose (default: all)")
+    parser.add_argument("--kept", action="store_true", help="into meshes/NAME-HASH beside the description, unless that is there; prints its case file")
+    parser.add_argument("--at-mach", type=float, metavar="M", help="with --kept: a Mach number that the mesh must be for")
     parser.add_argument("--no-picture", action="store_true", help="leave out the picture")
     parser.add_argument("--keys", action="store_true", help="print every key of a description, and end")
     arguments = parser.parse_args()

@@ -15,6 +15,7 @@ import gmsh
 from meshing.case_file import case_text
 from meshing.description import describe_keys, read_description
 from meshing.files import write
+from meshing.keep import keep
 from meshing.limits import LEVELS
 from meshing.mesher import Made, make_mesh
 from meshing.missile import Flight, Missile, Reference
@@ -32,15 +33,21 @@ def main(arguments: argparse.Namespace) -> int:
         print(describe_keys(), end="")
         return 0
     try:
-        missile = read_missile(arguments.description, arguments.stages)
-        if arguments.mach:
-            missile = replace(missile, flight=Flight(arguments.mach, missile.flight.alpha))
-        write_all(missile, arguments)
+        if arguments.kept:
+            keep(arguments, lambda asked, folder: write_all(read_for(asked), asked, folder))
+        else:
+            write_all(read_for(arguments), arguments, arguments.output or Path(arguments.description.stem))
     except (MeshError, OSError) as error:
         for line in str(error).splitlines():
             print(f"alphadot mesh: error: {line}", file=sys.stderr)
         return 1
     return 0
+
+
+def read_for(arguments: argparse.Namespace) -> Missile | Shape:
+    """The description with the Mach numbers that are asked for."""
+    missile = read_missile(arguments.description, arguments.stages)
+    return replace(missile, flight=Flight(arguments.mach, missile.flight.alpha)) if arguments.mach else missile
 
 
 def read_missile(path: Path, stages: list[int] | None) -> Missile | Shape:
@@ -71,9 +78,8 @@ def bare_shape(path: Path) -> Shape:
     return replace(shape, reference=reference, notes=(*shape.notes, note))
 
 
-def write_all(missile: Missile | Shape, arguments: argparse.Namespace) -> None:
+def write_all(missile: Missile | Shape, arguments: argparse.Namespace, folder: Path) -> None:
     """Makes and writes everything; each file appears under its name when it is complete."""
-    folder = arguments.output or Path(arguments.description.stem)
     folder.mkdir(parents=True, exist_ok=True)
     model = arguments.model
     wanted = [("mesh", arguments.cells)] if arguments.cells else levels(arguments.level, missile, model)
@@ -100,6 +106,8 @@ def write_all(missile: Missile | Shape, arguments: argparse.Namespace) -> None:
 
         draw(missile, first, folder / "picture.part.png")
         os.replace(folder / "picture.part.png", folder / "picture.png")
+    if arguments.kept:
+        return
     print(f"\nwritten to {folder}: {', '.join(files)}, case.toml, report.txt" + ("" if arguments.no_picture else ", picture.png"))
     print(f"next: alphadot derivatives {folder / 'case.toml'} --set freestream.mach={missile.flight.mach[1]:g}")
 

@@ -1,8 +1,12 @@
 #include "app/companion.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <spawn.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
+#include <array>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -27,8 +31,13 @@ std::string companion_script(const std::string& name) {
                    "install alphadot together with its share folder");
 }
 
+namespace {
+
+constexpr const char* python = "/usr/bin/python3";
+
+}  // namespace
+
 int become_companion(const std::string& name, int argc, char** argv) {
-  constexpr const char* python = "/usr/bin/python3";
   try {
     std::string script = companion_script(name);
     std::vector<char*> arguments{const_cast<char*>(python), script.data()};
@@ -40,6 +49,42 @@ int become_companion(const std::string& name, int argc, char** argv) {
     for (const auto& problem : error.problems()) fmt::print(stderr, "alphadot: error: {}\n", problem.text());
   }
   return exit_code(RunStatus::error);
+}
+
+std::string output_of_companion(const std::string& name, const std::vector<std::string>& arguments) {
+  const auto refuse = [&](const std::string& what, const std::string& remedy) {
+    throw InputError(name, 0, what, remedy);
+  };
+  std::vector<std::string> words{python, companion_script(name)};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  std::vector<char*> argv;
+  for (auto& word : words) argv.push_back(word.data());
+  argv.push_back(nullptr);
+  std::array<int, 2> ends{};
+  if (pipe2(ends.data(), O_CLOEXEC) != 0) refuse(std::strerror(errno), "close other programs");
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_adddup2(&actions, ends[1], STDOUT_FILENO);
+  pid_t child = 0;
+  const int failure = posix_spawn(&child, python, &actions, nullptr, argv.data(), environ);
+  posix_spawn_file_actions_destroy(&actions);
+  close(ends[1]);
+  std::string text;
+  std::array<char, 4096> part{};
+  for (ssize_t got = 0; failure == 0; text.append(part.data(), static_cast<std::size_t>(got))) {
+    do got = read(ends[0], part.data(), part.size());
+    while (got < 0 && errno == EINTR);
+    if (got <= 0) break;
+  }
+  close(ends[0]);
+  if (failure != 0) refuse(fmt::format("{}: {}", python, std::strerror(failure)), "install Debian's python3");
+  int status = 0;
+  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  }
+  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
+    refuse("has ended with an error", "see the lines above");
+  while (text.ends_with('\n')) text.pop_back();
+  return text.substr(text.rfind('\n') + 1);
 }
 
 }  // namespace alphadot

@@ -13,6 +13,7 @@
 #include "app/adjoint.hpp"
 #include "app/centers.hpp"
 #include "app/companion.hpp"
+#include "app/described_case.hpp"
 #include "app/frequency.hpp"
 #include "app/verbs.hpp"
 #include "core/error.hpp"
@@ -74,7 +75,7 @@ CLI::Validator center_text() {
 }
 
 void add_case_arguments(CLI::App& verb, CaseArguments& arguments) {
-  verb.add_option("case", arguments.case_file, "Case file (TOML)")->required();
+  verb.add_option("case", arguments.case_file, "Case file (TOML), or a description that alphadot mesh knows")->required();
   verb.add_option("--set", arguments.overrides, "Replace a key of the case, e.g. --set freestream.mach=2")
       ->type_name("KEY=VALUE")
       ->take_all();
@@ -211,6 +212,7 @@ int main(int argc, char** argv) {
   set_up_log(comm.is_root(), quiet);
 
   return guarded(comm, [&] {
+    mesh_description(arguments, comm);
     if (run) return run_verb(arguments, comm);
     if (derivatives) return derivatives_verb(arguments, comm);
     if (adjoint) return adjoint_verb(arguments, loads, comm);

@@ -138,7 +138,8 @@ class Meshes(Files):
                 walls = set(made.mesh.patches) - {"symmetry", "farfield"}
                 self.assertTrue(names <= walls, walls)
                 exact = share * base * (0.49 if make == "boattailed" else 1.0)
-                self.assertAlmostEqual(self.area(made, "base"), exact, delta=0.04 * exact)
+                # As few cells make a disc of as few as twelve sides.
+                self.assertAlmostEqual(self.area(made, "base"), exact, delta=0.06 * exact)
 
     def test_five_triangulations(self) -> None:
         points, triangles = cone_cylinder()
