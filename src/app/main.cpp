@@ -75,7 +75,8 @@ CLI::Validator center_text() {
 }
 
 void add_case_arguments(CLI::App& verb, CaseArguments& arguments) {
-  verb.add_option("case", arguments.case_file, "Case file (TOML), or a description that alphadot mesh knows")->required();
+  verb.add_option("case", arguments.case_file, "Case file (TOML), or a description that alphadot mesh knows")
+      ->required();
   verb.add_option("--set", arguments.overrides, "Replace a key of the case, e.g. --set freestream.mach=2")
       ->type_name("KEY=VALUE")
       ->take_all();
