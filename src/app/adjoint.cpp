@@ -66,7 +66,8 @@ bool solve_all(FlowCase& flow, const std::vector<Functional>& functionals, Adjoi
       if (link.rates == 0)
         problems.push_back({link.name(), weights_of(link, flow.setup().domain.patch_names, flow.settings())});
       else
-        problems.push_back({link.name(), {}, adjoints.at(link.before()).field});
+        problems.push_back(
+            {link.name(), {}, adjoints.at(link.before()).field, adjoints.at(link.before()).relative_error});
     }
     for (std::size_t begin = 0; begin < problems.size(); begin += problems_at_a_time) {
       const auto end = std::min(begin + problems_at_a_time, problems.size());

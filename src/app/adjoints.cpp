@@ -15,7 +15,8 @@ constexpr std::string_view prefix = "adjoint_";
 
 /// What a checkpoint keeps of an adjoint besides its field.
 std::vector<Real> numbers_of(const Adjoint& adjoint) {
-  std::vector<Real> out{static_cast<Real>(adjoint.iterations), adjoint.relative_residual};
+  std::vector<Real> out{static_cast<Real>(adjoint.iterations), adjoint.relative_error,
+                        adjoint.relative_residual};
   for (const auto& change : {adjoint.sensitivity, adjoint.sensitivity_error})
     for (const Vec3& part : {change.wind, change.grid_velocity, change.rotation})
       out.insert(out.end(), {part.x, part.y, part.z});
@@ -30,8 +31,9 @@ Adjoint adjoint_of(std::string name, const std::vector<Real>& numbers, std::size
   out.name = std::move(name);
   out.field.resize(cells);
   out.iterations = static_cast<int>(numbers.at(0));
-  out.relative_residual = numbers.at(1);
-  auto next = numbers.begin() + 2;
+  out.relative_error = numbers.at(1);
+  out.relative_residual = numbers.at(2);
+  auto next = numbers.begin() + 3;
   for (auto* change : {&out.sensitivity, &out.sensitivity_error})
     for (Vec3* part : {&change->wind, &change->grid_velocity, &change->rotation})
       for (int axis = 0; axis < 3; ++axis) (*part)[axis] = *next++;

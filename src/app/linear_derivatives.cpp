@@ -51,7 +51,7 @@ SensitivityProblem problem_of(ResponseKey key, const FlowCase& flow, const Solve
   if (const auto angle = rate_of(variable)) {
     const auto& response = responses.at({*angle, limiter_held});
     out.rate = response.field;
-    out.rate_residual = response.relative_residual;
+    out.rate_error = response.relative_error;
   }
   return out;
 }

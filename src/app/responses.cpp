@@ -25,17 +25,19 @@ std::vector<Real> numbers_of(const Sensitivity& response) {
   std::vector<Load> loads{response.total, response.total_error};
   loads.insert(loads.end(), response.loads.begin(), response.loads.end());
   auto out = numbers_of(loads);
-  out.insert(out.end(), {static_cast<Real>(response.iterations), response.relative_residual});
+  out.insert(out.end(),
+             {static_cast<Real>(response.iterations), response.relative_error, response.relative_residual});
   return out;
 }
 
 /// The way back; the field has zeros.
 Sensitivity response_of(Variable variable, const std::vector<Real>& numbers, std::size_t cells) {
-  const auto loads = loads_of(std::span(numbers).first(numbers.size() - 2));
+  const auto loads = loads_of(std::span(numbers).first(numbers.size() - 3));
   Sensitivity out;
   out.name = name(variable);
   out.field.resize(cells);
-  out.iterations = static_cast<int>(numbers[numbers.size() - 2]);
+  out.iterations = static_cast<int>(numbers[numbers.size() - 3]);
+  out.relative_error = numbers[numbers.size() - 2];
   out.relative_residual = numbers.back();
   out.total = loads.at(0);
   out.total_error = loads.at(1);

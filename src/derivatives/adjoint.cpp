@@ -8,7 +8,9 @@
 #include "derivatives/block_solve.hpp"
 #include "derivatives/free_linearisation.hpp"
 #include "derivatives/mass_term.hpp"
+#include "derivatives/remaining_error.hpp"
 #include "linear/shape_transpose.hpp"
+#include "space/influence.hpp"
 #include "space/wave_speed.hpp"
 
 namespace alphadot {
@@ -89,28 +91,42 @@ class AdjointOperator {
   std::array<std::vector<Real>, N> products_;
 };
 
-Adjoint adjoint_of(const AdjointProblem& problem, Field field, BlockRecord record, int iterations,
-                   const Communicator& comm) {
+/// The largest sensitivity to a velocity, by which that to a rotation about a point of the body is taken to
+/// be at least a quarter of the body's size larger; and to anything else as large.
+std::vector<Real> scales_of(std::span<const Real> products, Real body_size) {
+  constexpr Real arm = 0.25;
+  const auto size = [&](std::size_t begin) {
+    return std::hypot(products[begin], products[begin + 1], products[begin + 2]);
+  };
+  const Real velocity = std::max(size(0), size(3)), rotation = std::max(size(6), arm * body_size * velocity);
+  std::vector<Real> out(6, velocity);
+  out.insert(out.end(), 3, rotation);
+  for (std::size_t i = numbers_of_change; i < products.size(); ++i)
+    out.push_back(std::max(velocity, std::abs(products[i])));
+  return out;
+}
+
+Adjoint adjoint_of(const AdjointProblem& problem, Real orders, Field field, BlockRecord record,
+                   int iterations, Real body_size, const Communicator& comm) {
   std::vector<Real> all;
   for (const auto& products : record.functionals) all.insert(all.end(), products.begin(), products.end());
   comm.sum(all);
   auto next = all.begin();
   for (auto& products : record.functionals)
     for (Real& product : products) product = *next++;
-  auto error = remaining_error(record.norms, record.functionals);
   std::vector<Real> sensitivity;  // dJ/dc = J_c - psi . R_c
-  Real largest = 0;
-  for (const Real product : record.functionals.back()) {
-    sensitivity.push_back(-product);
-    largest = std::max(largest, std::abs(product));
-  }
-  for (Real& entry : error) entry += of_other_components * record.drop() * largest;
+  for (const Real product : record.functionals.back()) sensitivity.push_back(-product);
+  const auto scales = scales_of(sensitivity, body_size);
+  auto error = remaining_error(record.norms, record.functionals, scales, record.drop(), orders);
+  for (std::size_t i = 0; i < error.size(); ++i)
+    if (scales[i] > 0) error[i] += problem.rate_error * scales[i];
   return {.name = problem.name,
           .field = std::move(field),
           .sensitivity = change_of(sensitivity),
           .sensitivity_error = change_of(error),
           .products = {sensitivity.begin() + numbers_of_change, sensitivity.end()},
           .products_error = {error.begin() + numbers_of_change, error.end()},
+          .relative_error = relative_error(error, scales),
           .relative_residual = record.drop(),
           .iterations = iterations};
 }
@@ -122,7 +138,10 @@ AdjointSolver::AdjointSolver(ImplicitIteration& iteration, const Conditions<Real
     : iteration_(iteration),
       linearisation_(linearise_with_free_limiter(iteration, conditions)),
       settings_(settings),
-      go_on_(std::move(go_on)) {}
+      go_on_(std::move(go_on)),
+      body_size_(
+          Influence(iteration.discretization(), velocity(conditions.free_stream), iteration.communicator())
+              .body_size()) {}
 
 std::vector<Adjoint> AdjointSolver::solve(const std::vector<AdjointProblem>& problems) {
   std::vector<Adjoint> out;
@@ -134,8 +153,8 @@ std::vector<Adjoint> AdjointSolver::solve(const std::vector<AdjointProblem>& pro
                                           settings_, go_on_);
     if (!way.solve()) return false;
     for (std::size_t k = 0; k < N; ++k)
-      out.push_back(adjoint_of(group[k], std::move(way.field(k)), way.record(k), way.iterations(),
-                               iteration_.communicator()));
+      out.push_back(adjoint_of(group[k], asked[k].orders, std::move(way.field(k)), way.record(k),
+                               way.iterations(), body_size_, iteration_.communicator()));
     return true;
   };
   if (!in_groups(std::span(problems), solve)) return {};

@@ -23,6 +23,7 @@ struct AdjointProblem {
   std::string name;
   std::vector<Load> weights = {};              ///< of every patch's load; none for an adjoint to a rate
   std::span<const Conserved<Real>> rate = {};  ///< psi of the functional, [owned_cells]; or empty
+  Real rate_error = 0;                         ///< its relative error, which reaches this one too
 };
 
 struct Adjoint {
@@ -33,6 +34,7 @@ struct Adjoint {
   ConditionsChange sensitivity_error;
   /// -psi . R_c for each of AdjointSolver::follow(), and how far they may be.
   std::vector<Real> products, products_error;
+  Real relative_error = 0;     ///< the largest of all these beside the size of the sensitivity
   Real relative_residual = 1;  ///< |D (A^T psi - b)| / |D b|, D the inverse of wave speeds times areas
   int iterations = 0;
 };
@@ -65,6 +67,7 @@ class AdjointSolver {
   Linearisation linearisation_;
   DerivativeSettings settings_;
   std::function<bool()> go_on_;
+  Real body_size_;
   std::vector<std::span<const Conserved<Real>>> residual_changes_;
 };
 

@@ -40,35 +40,6 @@ struct BlockRecord {
   }
 };
 
-/// How far the latest of the functionals, over all ranks, may be from those of the solution: as many times
-/// the residual as those of any earlier iteration were from the latest. The ratio differs between iterations,
-/// since residuals in some cells matter more to a functional than in others; the largest one counts, and
-/// twice, for it is a sample. Where the residual has not even halved, nothing of a functional is known.
-inline std::vector<Real> remaining_error(std::span<const Real> norms,
-                                         std::span<const std::vector<Real>> functionals) {
-  constexpr Real safety = 2, much_larger = 2;
-  const Real last = norms.back();
-  const auto& latest = functionals.back();
-  std::vector<Real> out(latest.size());
-  for (std::size_t i = 0; i < out.size(); ++i) {
-    bool has_sample = false;
-    Real largest = std::abs(latest[i]);
-    for (std::size_t j = 0; j + 1 < norms.size(); ++j) {
-      const Real change = std::abs(functionals[j][i] - latest[i]);
-      largest = std::max(largest, change);
-      if (!(norms[j] >= much_larger * last)) continue;
-      has_sample = true;
-      out[i] = std::max(out[i], safety * last / (norms[j] - last) * change);
-    }
-    if (!has_sample) out[i] = safety * largest;
-  }
-  return out;
-}
-
-/// A component of a result that is small, or zero by symmetry, is no better solved for than the others: it
-/// may be off by this share of the largest one, times the relative residual.
-inline constexpr Real of_other_components = 0.05;
-
 /// N problems solved together by block GMRES with the implicit scheme on the right, so that what it makes
 /// small is the true residual, or by marching with that scheme. Every application of the operator serves all
 /// problems, and all of them look along the directions of all. The operator is a class with
@@ -174,6 +145,8 @@ class BlockSolve {
   /// A good guess must improve by a decade too: how its error reaches the functionals shows only then.
   bool all_dropped() const {
     constexpr Real of_guess = 0.1;
+    constexpr int fewest = 4;  // from which a rate can be told
+    if (iterations_ < std::min(fewest, settings_.max_iterations) && largest_norm() > 0) return false;
     for (std::size_t k = 0; k < N; ++k) {
       const BlockRecord& record = records_[k];
       if (record.drop() > std::pow(10.0, -problems_[k].orders)) return false;

@@ -7,7 +7,9 @@
 #include "derivatives/free_linearisation.hpp"
 #include "derivatives/loads.hpp"
 #include "derivatives/mass_term.hpp"
+#include "derivatives/remaining_error.hpp"
 #include "linear/cell_scaling.hpp"
+#include "space/influence.hpp"
 
 namespace alphadot {
 
@@ -72,8 +74,8 @@ class FrequencyOperator {
   std::array<std::vector<Load>, 2> loads_;
 };
 
-FrequencyResponse response_of(std::vector<Primitive<Real>> field, BlockRecord record, int iterations,
-                              const Communicator& comm) {
+FrequencyResponse response_of(Real orders, std::vector<Primitive<Real>> field, BlockRecord record,
+                              int iterations, Real body_size, const Communicator& comm) {
   FrequencyResponse out;
   out.field = std::move(field);
   std::ptrdiff_t patches = 0;
@@ -93,9 +95,15 @@ FrequencyResponse response_of(std::vector<Primitive<Real>> field, BlockRecord re
   record.norms.insert(record.norms.begin(), record.reference_norm);
   record.functionals.insert(record.functionals.begin(),
                             std::vector<Real>(record.functionals.front().size(), 0));
-  auto remaining = loads_of(remaining_error(record.norms, record.functionals));
-  const Real share = of_other_components * out.relative_residual;
-  for (Load& error : remaining) error += share * (largest_of(out.total[0]) + largest_of(out.total[1]));
+  // Of the size of both parts each is taken to be.
+  Load size;
+  for (int axis = 0; axis < 3; ++axis) {
+    size.force[axis] = std::hypot(out.total[0].force[axis], out.total[1].force[axis]);
+    size.moment[axis] = std::hypot(out.total[0].moment[axis], out.total[1].moment[axis]);
+  }
+  const auto scales = scales_of(size, body_size, static_cast<std::size_t>(2 * patches + 2));
+  auto remaining =
+      loads_of(remaining_error(record.norms, record.functionals, scales, out.relative_residual, orders));
   // What is left turns: of a load's parts either may be off by what both are.
   const auto turn = [](Load& real, Load& imaginary) {
     for (int axis = 0; axis < 3; ++axis) {
@@ -119,7 +127,10 @@ FrequencySolver::FrequencySolver(ImplicitIteration& iteration, const Conditions<
     : iteration_(iteration),
       linearisation_(linearise_with_free_limiter(iteration, conditions)),
       settings_(settings),
-      go_on_(std::move(go_on)) {
+      go_on_(std::move(go_on)),
+      body_size_(
+          Influence(iteration.discretization(), velocity(conditions.free_stream), iteration.communicator())
+              .body_size()) {
   settings_.method = SensitivityMethod::gmres;
 }
 
@@ -130,7 +141,8 @@ bool FrequencySolver::solve(const FrequencyProblem& problem, FrequencyResponse& 
       {BlockProblem{problem.name, settings_.orders, problem.guess, shifted.source_norm()}}, settings_,
       go_on_);
   if (!way.solve()) return false;
-  out = response_of(std::move(way.field(0)), way.record(0), way.iterations(), iteration_.communicator());
+  out = response_of(settings_.orders, std::move(way.field(0)), way.record(0), way.iterations(), body_size_,
+                    iteration_.communicator());
   return true;
 }
 

@@ -52,6 +52,7 @@ class FrequencySolver {
   Linearisation linearisation_;
   DerivativeSettings settings_;
   std::function<bool()> go_on_;
+  Real body_size_;
 };
 
 }  // namespace alphadot

@@ -30,10 +30,4 @@ inline Load coefficient_weight(int coefficient, const FlightCondition& settings)
   return out;
 }
 
-/// The norms of force and of moment, in every component.
-inline Load largest_of(const Load& load) {
-  const Real force = norm(load.force), moment = norm(load.moment);
-  return {{force, force, force}, {moment, moment, moment}};
-}
-
 }  // namespace alphadot

@@ -7,7 +7,9 @@
 #include "derivatives/free_linearisation.hpp"
 #include "derivatives/loads.hpp"
 #include "derivatives/mass_term.hpp"
+#include "derivatives/remaining_error.hpp"
 #include "linear/cell_scaling.hpp"
+#include "space/influence.hpp"
 
 namespace alphadot {
 
@@ -55,8 +57,8 @@ class ForwardOperator {
   std::array<std::vector<Load>, N> loads_;
 };
 
-Sensitivity sensitivity_of(const SensitivityProblem& problem, std::vector<Primitive<Real>> field,
-                           BlockRecord record, int iterations, const Communicator& comm) {
+Sensitivity sensitivity_of(const SensitivityProblem& problem, Real orders, std::vector<Primitive<Real>> field,
+                           BlockRecord record, int iterations, Real body_size, const Communicator& comm) {
   Sensitivity out;
   out.name = problem.name;
   out.field = std::move(field);
@@ -68,9 +70,12 @@ Sensitivity sensitivity_of(const SensitivityProblem& problem, std::vector<Primit
   }
   out.relative_residual = record.drop();
   out.iterations = iterations;
-  const Real share = of_other_components * out.relative_residual + problem.rate_residual;
-  out.total_error =
-      loads_of(remaining_error(record.norms, record.functionals)).front() + share * largest_of(out.total);
+  const auto scales = scales_of(out.total, body_size, 1);
+  auto error = remaining_error(record.norms, record.functionals, scales, out.relative_residual, orders);
+  for (std::size_t i = 0; i < error.size(); ++i)
+    if (scales[i] > 0) error[i] += problem.rate_error * scales[i];
+  out.relative_error = relative_error(error, scales);
+  out.total_error = loads_of(error).front();
   return out;
 }
 
@@ -81,7 +86,10 @@ SensitivitySolver::SensitivitySolver(ImplicitIteration& iteration, const Conditi
     : iteration_(iteration),
       linearisation_(linearise_with_free_limiter(iteration, conditions)),
       settings_(settings),
-      go_on_(std::move(go_on)) {}
+      go_on_(std::move(go_on)),
+      body_size_(
+          Influence(iteration.discretization(), velocity(conditions.free_stream), iteration.communicator())
+              .body_size()) {}
 
 std::vector<Sensitivity> SensitivitySolver::solve(const std::vector<SensitivityProblem>& problems) {
   std::vector<Sensitivity> out;
@@ -94,8 +102,8 @@ std::vector<Sensitivity> SensitivitySolver::solve(const std::vector<SensitivityP
                                           go_on_);
     if (!way.solve()) return false;
     for (std::size_t k = 0; k < N; ++k)
-      out.push_back(sensitivity_of(group[k], std::move(way.field(k)), way.record(k), way.iterations(),
-                                   iteration_.communicator()));
+      out.push_back(sensitivity_of(group[k], asked[k].orders, std::move(way.field(k)), way.record(k),
+                                   way.iterations(), body_size_, iteration_.communicator()));
     return true;
   };
   if (!in_groups(std::span(problems), solve)) return {};

@@ -20,7 +20,7 @@ struct SensitivityProblem {
   ConditionsChange change;  ///< c; zero for the response to a rate
   /// W_c of the quantity whose rate this is, [owned_cells]; or empty.
   std::span<const Primitive<Real>> rate = {};
-  Real rate_residual = 0;   ///< relative residual that W_c was solved to, which reaches W_cdot too
+  Real rate_error = 0;      ///< relative error of W_c, which reaches W_cdot too
   Real further_orders = 0;  ///< decades beyond those of the settings, for a response whose rate is wanted
   /// Added to the left side, [owned_cells]; or empty. The steady residual makes U a step of Newton's method.
   std::span<const Conserved<Real>> defect = {};
@@ -35,6 +35,7 @@ struct Sensitivity {
   std::vector<Load> loads;             ///< change of the load of every patch, over all ranks
   Load total;
   Load total_error;  ///< how far the total may be from that of the exact solution of the linear problem
+  Real relative_error = 0;     ///< the largest of them beside the size of the total
   Real relative_residual = 1;  ///< |D (A U + b)| / |D b|, D as in cell_scaling.hpp
   int iterations = 0;
 };
@@ -61,6 +62,7 @@ class SensitivitySolver {
   Linearisation linearisation_;
   DerivativeSettings settings_;
   std::function<bool()> go_on_;
+  Real body_size_;
 };
 
 }  // namespace alphadot

@@ -151,6 +151,33 @@ class StoppedEarly(Case):
                 self.assertGreater(largest, 3e-5)
                 self.assertGreater(max(entry["parts"]["steady"] for entry in found.values()), 0.5 * largest)
 
+    def test_what_the_linear_residual_leaves_is_in_the_uncertainty(self) -> None:
+        """Few iterations, in which a load may stand still by chance; by the same solves nine decades down."""
+        write_case(self.folder, mesh=gmsh_text(*box(5)))
+        first_order = {"space.order": 1, "freestream.mach": 1.5, "freestream.alpha": 10}
+        plain = first_order | {"space.flux": "van_leer", "space.limiter": "none", "space.gradient": "green_gauss", "steady.sweeps": 8}
+        for case in (first_order, plain, {}, {"freestream.mach": 3, "freestream.alpha": 8, "steady.sweeps": 16}):
+            for verb in ("derivatives", "adjoint"):
+                exact = self.result(verb, case | {"derivatives.orders": 9})["derivatives"]
+                for settings in ({"derivatives.orders": 1}, {"derivatives.orders": 2}, {}):
+                    found = self.result(verb, case | settings)
+                    self.assertEqual(found["status"], "converged", self.outcome.err)
+                    for name, entry in found["derivatives"].items():
+                        with self.subTest(case=case, verb=verb, settings=settings, name=name):
+                            error = abs(entry["value"] - exact[name]["value"])
+                            self.assertLessEqual(error, entry["uncertainty"] + exact[name]["uncertainty"])
+
+    def test_a_cut_solve_knows_no_uncertainty(self) -> None:
+        """Less than two decades down nothing is known of the error of a derivative, or of those that rest on it."""
+        write_case(self.folder, mesh=gmsh_text(*box(5)))
+        for verb in ("derivatives", "adjoint"):
+            found = self.result(verb, {"derivatives.max_iterations": 1})
+            self.assertEqual(found["status"], "not_converged")
+            for name, entry in found["derivatives"].items():
+                with self.subTest(verb=verb, name=name):
+                    # A load that the plate does not bear is nought, whatever was solved for.
+                    self.assertEqual(entry["uncertainty"], None if name[:2] in ("CN", "Cl", "Cm") else 0 if verb == "adjoint" else None)
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -1,0 +1,28 @@
+// How far linear functionals of an iterative solution may be from those of the exact one.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "space/forces.hpp"
+
+namespace alphadot {
+
+/// Of the functionals at the latest of a solve's iterations; `norms` are those of its defects, `functionals`
+/// over all ranks, both an entry an iteration, the start included. As many times the residual as those of any
+/// earlier iteration were from the latest; this ratio is a sample, for residuals in some cells matter more to
+/// a functional than in others. So the largest one counts, and more than once, the more often the fewer there
+/// are. Each functional has a scale, what is a lot in its unit: by it, none is taken to be much less
+/// sensitive than the most sensitive one, whatever its own samples say. Infinite for all when the residual
+/// has dropped by less than two decades without being asked for no more than `orders`.
+std::vector<Real> remaining_error(std::span<const Real> norms, std::span<const std::vector<Real>> functionals,
+                                  std::span<const Real> scales, Real relative_residual, Real orders);
+
+/// Scales of the components of loads, the same for all: the size of `total` and, for moments, at least what
+/// its force does on an arm of a quarter of the body's size.
+std::vector<Real> scales_of(const Load& total, Real body_size, std::size_t loads);
+
+/// The largest share of its scale that an error is.
+Real relative_error(std::span<const Real> errors, std::span<const Real> scales);
+
+}  // namespace alphadot
