@@ -96,7 +96,7 @@ TEST_F(AdjointTest, SaysHowFarTheSensitivityMayBe) {
                                   absolute(problem.change.rotation)};
       const Real error = product(rough[i].sensitivity_error, size);
       EXPECT_LT(std::abs(value - product(exact[i].sensitivity, problem.change)), error) << problem.name;
-      EXPECT_LT(error, 0.05 * std::abs(value)) << problem.name;
+      EXPECT_LT(error, 0.15 * std::abs(value)) << problem.name;
     }
 }
 
