@@ -8,7 +8,7 @@
 namespace alphadot {
 namespace {
 
-constexpr std::size_t longest = 64;  ///< beginning, in bytes
+constexpr std::size_t beginning_bytes = 64;  ///< of a file, which tell what it is
 
 struct Foreign {
   std::string_view beginning;
@@ -118,7 +118,7 @@ std::optional<Problem> foreign_content(const std::string& path, std::string_view
     if (content.starts_with("\xef\xbb\xbf")) content.remove_prefix(3);
     content.remove_prefix(std::min(content.find_first_not_of(" \t\r\n"), content.size()));
   }
-  const std::string start = in_lower_case(content.substr(0, longest));
+  const std::string start = in_lower_case(content.substr(0, beginning_bytes));
   for (const auto& [beginning, what, remedy] : beginnings)
     if (start.starts_with(beginning) && (expected == Expected::text || beginning.size() >= least_of_binary))
       return Problem{path, 0, what, remedy};
@@ -132,7 +132,7 @@ std::optional<Problem> foreign_name(const std::string& path, std::string_view na
 }
 
 std::string beginning_of(const std::string& path) {
-  std::string out(longest, '\0');
+  std::string out(beginning_bytes, '\0');
   std::ifstream stream(path, std::ios::binary);
   stream.read(out.data(), static_cast<std::streamsize>(out.size()));
   out.resize(static_cast<std::size_t>(stream.gcount()));

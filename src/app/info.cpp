@@ -12,6 +12,7 @@
 #include "app/verbs.hpp"
 #include "core/error.hpp"
 #include "io/checkpoint.hpp"
+#include "io/foreign_files.hpp"
 #include "io/mesh_reader.hpp"
 #include "io/partitioned_mesh.hpp"
 #include "io/seal.hpp"
@@ -97,7 +98,7 @@ RunStatus info_verb(const std::string& file, const Communicator& comm) {
     const std::string extension = std::filesystem::path(file).extension();
     if (is_partitioned_mesh(file))
       describe_partitioned_mesh(file);
-    else if (extension == ".h5")
+    else if (extension == ".h5" && !foreign_name(file, in_lower_case(file)))
       describe_history(file);
     else if (extension == ".json")
       describe_result(file);
