@@ -113,18 +113,26 @@ FolderLock::~FolderLock() {
   close(fd_);
 }
 
-std::string read_text_file(const std::string& path, const std::string& what, std::uintmax_t most_bytes) {
+std::string read_file(const std::string& path, const std::string& what, std::uintmax_t most_bytes) {
   std::error_code error;
   if (!fs::exists(path, error)) throw InputError(path, 0, "no such " + what, "check the path");
   if (!fs::is_regular_file(path, error)) throw InputError(path, 0, "the " + what + " is not a regular file");
-  if (fs::file_size(path, error) > most_bytes)
+  const std::uintmax_t size = fs::file_size(path, error);
+  if (size > most_bytes)
     throw InputError(path, 0, fmt::format("too large for a {} (above {} MiB)", what, most_bytes / (1 << 20)));
   std::ifstream stream(path, std::ios::binary);
-  std::ostringstream text;
-  text << stream.rdbuf();
-  // An empty file sets failbit on `text`, an unreadable one leaves `stream` closed.
-  if (!stream.is_open() || stream.bad()) throw InputError(path, 0, "cannot be read", "check its permissions");
-  return text.str();
+  if (error || !stream) throw InputError(path, 0, "cannot be read", "check its permissions");
+  std::string content(size, '\0');
+  stream.read(content.data(), static_cast<std::streamsize>(size));
+  if (static_cast<std::uintmax_t>(stream.gcount()) != size)
+    throw InputError(path, 0, "cannot be read: it ends before its size is reached", "is it being written?");
+  return content;
+}
+
+std::string content_of(const std::string& path) {
+  std::ostringstream content;
+  content << std::ifstream(path, std::ios::binary).rdbuf();
+  return content.str();
 }
 
 Replacement::~Replacement() {

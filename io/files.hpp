@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -29,7 +30,11 @@ class FolderLock {
 
 /// The content of a regular file of at most `most_bytes`; `what` it is for messages, "case file". Throws
 /// InputError. Not collective: for one rank.
-std::string read_text_file(const std::string& path, const std::string& what, std::uintmax_t most_bytes);
+std::string read_file(const std::string& path, const std::string& what,
+                      std::uintmax_t most_bytes = std::numeric_limits<std::uintmax_t>::max());
+
+/// The content of a file that may be there or not, or be written at the moment; empty when it cannot be read.
+std::string content_of(const std::string& path);
 
 /// A file on its way to take the place of `path`: written at temporary(), then committed. Readers of `path`
 /// see the old file or the new one, never a part. Without a commit the temporary file is removed and `path`

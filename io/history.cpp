@@ -9,9 +9,8 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "core/csv.hpp"
 #include "core/error.hpp"
-#include "io/case_file.hpp"
-#include "io/case_words.hpp"
 #include "io/files.hpp"
 #include "io/provenance.hpp"
 
@@ -34,7 +33,7 @@ Vec3 read_point(const hdf5::Group& group, const std::string& name) {
 template <class E>
 E read_word(const hdf5::Group& group, const std::string& name) {
   const auto text = group.text_attribute(name);
-  const auto value = value_of<E>(text);
+  const auto value = named_by<E>(text);
   if (!value)
     throw InputError(group.file(), 0, "attribute " + name + " has the unknown value \"" + text + "\"");
   return *value;
@@ -102,28 +101,7 @@ void check_format(const hdf5::Group& group) {
                      fmt::format("a history of format {}, this program reads {}", version, format_version));
 }
 
-std::string csv_cell(const std::string& text) {
-  if (text.find_first_of(",\"\n") == std::string::npos) return text;
-  std::string out = "\"";
-  for (const char c : text) out += c == '"' ? "\"\"" : std::string(1, c);
-  return out + '"';
-}
-
 }  // namespace
-
-HistoryInfo history_info(const Case& c, const std::string& mesh_hash, const std::string& motion_table_hash) {
-  HistoryInfo info;
-  info.title = c.title;
-  info.reference = c.reference;
-  info.freestream = c.freestream;
-  info.motion = c.motion;
-  info.mesh_file = c.mesh.file;
-  info.mesh_hash = mesh_hash;
-  info.motion_table_hash = motion_table_hash;
-  info.version = provenance(1).version;
-  info.case_text = resolved_case(c);
-  return info;
-}
 
 void History::append(const Row& row) {
   if (names_.empty()) {
@@ -191,19 +169,17 @@ History History::read(const hdf5::Group& group) {
 std::string History::csv() const {
   std::string text;
   if (names_.empty()) return text;
-  text += "# Flow: " + info.origin().text() + '\n';
-  if (!info.status.empty()) text += "# Status: " + info.status + '\n';
-  for (std::size_t i = 0; i < names_.size(); ++i) text += (i ? "," : "") + csv_cell(names_[i]);
-  text += '\n';
+  text += csv_comment("Flow: " + info.origin().text());
+  if (!info.status.empty()) text += csv_comment("Status: " + info.status);
+  text += csv_line(names_);
   for (std::size_t step = 0; step < steps(); ++step) text += csv_row(step);
   return text;
 }
 
 std::string History::csv_row(std::size_t step) const {
-  std::string text;
-  for (std::size_t i = 0; i < columns_.size(); ++i)
-    fmt::format_to(std::back_inserter(text), "{}{}", i ? "," : "", columns_[i][step]);
-  return text + '\n';
+  std::vector<std::string> cells;
+  for (const auto& column : columns_) cells.push_back(fmt::format("{}", column[step]));
+  return csv_line(cells);
 }
 
 bool is_reserved_component(const std::string& name) {

@@ -6,9 +6,9 @@
 #include <utility>
 #include <vector>
 
-#include "io/case.hpp"
 #include "io/hdf5.hpp"
 #include "io/provenance.hpp"
+#include "motion/settings.hpp"
 
 namespace alphadot {
 
@@ -32,10 +32,6 @@ struct HistoryInfo {
 
   Origin origin() const { return {freestream, mesh_file, mesh_hash, version}; }
 };
-
-/// The info of a case.
-HistoryInfo history_info(const Case& c, const std::string& mesh_hash,
-                         const std::string& motion_table_hash = "");
 
 /// Columns by convention: step, time, t_star, alpha, theta, q, inner_iterations, inner_residual, and for each
 /// component (total, body, fins ...) total/CA total/CY total/CN total/Cl total/Cm total/Cn. In a file the

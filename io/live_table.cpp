@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <charconv>
+#include <sstream>
+
+#include "io/files.hpp"
 
 namespace alphadot {
 
@@ -29,7 +32,7 @@ const std::vector<Real>* Table::find(std::string_view name) const {
 
 Table read_table(const std::string& path) {
   Table out;
-  std::ifstream in(path, std::ios::binary);
+  std::istringstream in(content_of(path));
   std::string line;
   do {
     if (!std::getline(in, line)) return out;

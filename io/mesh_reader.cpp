@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <string_view>
 #include <system_error>
 #include <vector>
 
 #include "core/error.hpp"
+#include "io/files.hpp"
 #include "io/foreign_files.hpp"
 #include "io/gmsh_reader.hpp"
 #include "io/gzip.hpp"
@@ -71,22 +71,6 @@ void mend_line_ends(std::string& content, const std::string& name) {
     std::replace(content.begin(), content.end(), '\r', '\n');
 }
 
-std::string read_file(const std::string& path) {
-  const auto fail = [&](const std::string& why) {
-    throw InputError(path, 0, "cannot read the file: " + why, "check [mesh] file");
-  };
-  std::error_code error;
-  if (!std::filesystem::exists(path, error)) fail("there is no such file");
-  if (!std::filesystem::is_regular_file(path, error)) fail("it is not a regular file");
-  const std::uintmax_t size = std::filesystem::file_size(path, error);
-  std::ifstream stream(path, std::ios::binary);
-  if (error || !stream) fail("it cannot be opened");
-  std::string content(size, '\0');
-  stream.read(content.data(), static_cast<std::streamsize>(size));
-  if (static_cast<std::uintmax_t>(stream.gcount()) != size) fail("it ends before its size is reached");
-  return content;
-}
-
 /// The names in the .mapbc file beside wing.b8.ugrid, which is wing.mapbc or wing.b8.mapbc.
 SurfaceNames names_beside(const std::string& path) {
   std::filesystem::path stem(path);
@@ -94,7 +78,7 @@ SurfaceNames names_beside(const std::string& path) {
   std::error_code error;
   while (stem.has_extension()) {
     const std::string mapbc = stem.replace_extension(".mapbc");
-    if (std::filesystem::exists(mapbc, error)) return read_mapbc(read_file(mapbc), mapbc);
+    if (std::filesystem::exists(mapbc, error)) return read_mapbc(read_file(mapbc, "list of patches"), mapbc);
     stem.replace_extension();
   }
   return {};
@@ -108,7 +92,7 @@ MeshOfFile read_mesh(const std::string& path) {
   // A pointer to a file has the name of the file itself.
   if (const auto problem = foreign_content(path, beginning_of(path), Expected::binary)) fail_with(*problem);
   check_name(path, name);
-  std::string content = read_file(path);
+  std::string content = read_file(path, "mesh");
   if (is_gzip(content)) content = gunzip(content, path);
   check_beginning(path, content, name);
   mend_line_ends(content, name);

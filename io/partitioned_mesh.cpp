@@ -206,9 +206,9 @@ MeshPart read_partitioned_mesh(const std::string& path, const Communicator& comm
   });
   const auto begins = cell_begins(header, comm.size());
   const auto rank = static_cast<std::size_t>(comm.rank());
-  const EqualShares point_shares(header.points, comm.size()), triangle_shares(header.triangles, comm.size());
-  const GlobalIndex first_triangle = triangle_shares.begin(comm.rank()),
-                    triangles = triangle_shares.size(comm.rank());
+  const EqualSlabs point_slabs(header.points, comm.size()), triangle_slabs(header.triangles, comm.size());
+  const GlobalIndex first_triangle = triangle_slabs.begin(comm.rank()),
+                    triangles = triangle_slabs.size(comm.rank());
 
   MeshPart part;
   part.file = path;
@@ -223,13 +223,13 @@ MeshPart read_partitioned_mesh(const std::string& path, const Communicator& comm
     part.cells = reader->rows<std::int64_t, std::array<GlobalIndex, 4>>("cells", begins[rank],
                                                                         begins[rank + 1] - begins[rank]);
     part.points =
-        reader->rows<double, Vec3>("points", point_shares.begin(comm.rank()), point_shares.size(comm.rank()));
+        reader->rows<double, Vec3>("points", point_slabs.begin(comm.rank()), point_slabs.size(comm.rank()));
     corners = reader->rows<std::int64_t, std::array<GlobalIndex, 3>>("triangles", first_triangle, triangles);
     cell = reader->rows<std::int64_t, GlobalIndex>("triangle_cell", first_triangle, triangles);
     patch = reader->rows<std::int32_t, std::int32_t>("triangle_patch", first_triangle, triangles);
   });
   reader->verify<std::array<GlobalIndex, 4>>("cells", part.cells, begins[rank]);
-  reader->verify<Vec3>("points", part.points, point_shares.begin(comm.rank()));
+  reader->verify<Vec3>("points", part.points, point_slabs.begin(comm.rank()));
   reader->verify<std::array<GlobalIndex, 3>>("triangles", corners, first_triangle);
   reader->verify<GlobalIndex>("triangle_cell", cell, first_triangle);
   reader->verify<std::int32_t>("triangle_patch", patch, first_triangle);

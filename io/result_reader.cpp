@@ -68,7 +68,7 @@ class Node {
 };
 
 Json parsed(const std::string& path) {
-  const std::string text = read_text_file(path, "result", most_bytes);
+  const std::string text = read_file(path, "result", most_bytes);
   try {
     return Json::parse(text);
   } catch (const Json::parse_error& error) {

@@ -26,13 +26,13 @@ std::vector<T> permuted(const std::vector<T>& values, const std::vector<Index>& 
 
 class Builder {
  public:
-  Builder(Share share, Real scale) : share_(std::move(share)), owned_(share_.owned_cells()) {
-    for (Vec3& point : share_.points) point = scale * point;
+  Builder(RankMesh rank_mesh, Real scale) : mesh_(std::move(rank_mesh)), owned_(mesh_.owned_cells()) {
+    for (Vec3& point : mesh_.points) point = scale * point;
     domain_.owned_cells = owned_;
-    domain_.total_cells = static_cast<Index>(share_.cell_ids.size());
-    domain_.global_cells = share_.global_cells;
-    domain_.global_points = share_.global_points;
-    domain_.patch_names = share_.patch_names;
+    domain_.total_cells = static_cast<Index>(mesh_.cell_ids.size());
+    domain_.global_cells = mesh_.global_cells;
+    domain_.global_points = mesh_.global_points;
+    domain_.patch_names = mesh_.patch_names;
   }
 
   Subdomain build() {
@@ -46,48 +46,48 @@ class Builder {
   }
 
  private:
-  int ghost_owner(Index cell) const { return share_.ghost_owner[cell - owned_]; }
+  int ghost_owner(Index cell) const { return mesh_.ghost_owner[cell - owned_]; }
   std::span<const FaceCells> cut_faces() const {
     return std::span(domain_.faces).subspan(static_cast<std::size_t>(domain_.cut_face_begin));
   }
 
   void number_cells() {
-    const Adjacency graph = dual_graph(share_.cell_points, share_.points.size());
+    const Adjacency graph = dual_graph(mesh_.cell_points, mesh_.points.size());
     std::vector<Index> order = downstream_order(graph, centers_of_owned());
     move_interior_first(order);
 
     // Ghosts by owner; then those across a face, so that an exchange of them alone is one range; then by
     // global id, which the owner knows too.
-    std::vector<Index> ghosts(share_.ghost_owner.size());
+    std::vector<Index> ghosts(mesh_.ghost_owner.size());
     std::iota(ghosts.begin(), ghosts.end(), owned_);
     const auto place = [&](Index ghost) {
       const auto across = graph[ghost];
       const bool shares_face =
           std::any_of(across.begin(), across.end(), [&](Index cell) { return cell < owned_; });
-      return std::tuple(ghost_owner(ghost), !shares_face, share_.cell_ids[ghost]);
+      return std::tuple(ghost_owner(ghost), !shares_face, mesh_.cell_ids[ghost]);
     };
     std::sort(ghosts.begin(), ghosts.end(), [&](Index a, Index b) { return place(a) < place(b); });
 
     order.insert(order.end(), ghosts.begin(), ghosts.end());
-    domain_.cell_ids = permuted(share_.cell_ids, order);
-    domain_.cell_points = permuted(share_.cell_points, order);
+    domain_.cell_ids = permuted(mesh_.cell_ids, order);
+    domain_.cell_points = permuted(mesh_.cell_points, order);
     for (Index& ghost : ghosts) ghost -= owned_;
-    share_.ghost_owner = permuted(share_.ghost_owner, ghosts);
+    mesh_.ghost_owner = permuted(mesh_.ghost_owner, ghosts);
   }
 
   std::vector<Vec3> centers_of_owned() const {
     std::vector<Vec3> centers(static_cast<std::size_t>(owned_));
     for (std::size_t cell = 0; cell < centers.size(); ++cell)
-      for (const Index point : share_.cell_points[cell]) centers[cell] += 0.25 * share_.points[point];
+      for (const Index point : mesh_.cell_points[cell]) centers[cell] += 0.25 * mesh_.points[point];
     return centers;
   }
 
   void move_interior_first(std::vector<Index>& order) {
-    std::vector<char> on_ghost(share_.points.size(), 0);
-    for (std::size_t ghost = static_cast<std::size_t>(owned_); ghost < share_.cell_points.size(); ++ghost)
-      for (const Index point : share_.cell_points[ghost]) on_ghost[point] = 1;
+    std::vector<char> on_ghost(mesh_.points.size(), 0);
+    for (std::size_t ghost = static_cast<std::size_t>(owned_); ghost < mesh_.cell_points.size(); ++ghost)
+      for (const Index point : mesh_.cell_points[ghost]) on_ghost[point] = 1;
     const auto interior = [&](Index cell) {
-      const auto& points = share_.cell_points[cell];
+      const auto& points = mesh_.cell_points[cell];
       return std::none_of(points.begin(), points.end(), [&](Index point) { return on_ghost[point]; });
     };
     const auto end = std::stable_partition(order.begin(), order.end(), interior);
@@ -96,7 +96,7 @@ class Builder {
 
   /// Points in the order in which the cells use them.
   void number_points() {
-    std::vector<Index> order, number(share_.points.size(), -1);
+    std::vector<Index> order, number(mesh_.points.size(), -1);
     order.reserve(number.size());
     for (Index cell = 0; cell < domain_.total_cells; ++cell) {
       for (Index& point : domain_.cell_points[cell]) {
@@ -110,9 +110,9 @@ class Builder {
       if (cell == domain_.interior_cells - 1) domain_.interior_points = static_cast<Index>(order.size());
       if (cell == owned_ - 1) domain_.owned_points = static_cast<Index>(order.size());
     }
-    domain_.points = permuted(share_.points, order);
-    domain_.point_ids = permuted(share_.point_ids, order);
-    for (auto& triangle : share_.triangles)
+    domain_.points = permuted(mesh_.points, order);
+    domain_.point_ids = permuted(mesh_.point_ids, order);
+    for (auto& triangle : mesh_.triangles)
       for (Index& point : triangle) point = number[point];
   }
 
@@ -136,7 +136,7 @@ class Builder {
         owned_sides += right < owned_ ? 2 : 1;
       }
     };
-    for_each_face<Index>(domain_.cell_points, share_.triangles, domain_.points.size(), visit);
+    for_each_face<Index>(domain_.cell_points, mesh_.triangles, domain_.points.size(), visit);
     if (owned_sides != 4 * owned_)
       throw std::logic_error("the mesh has faces with neither a second cell nor a boundary triangle");
 
@@ -158,9 +158,9 @@ class Builder {
   }
 
   void add_boundary_face(Index side, Index triangle) {
-    domain_.boundary_faces.push_back({side / 4, share_.triangle_patch[triangle],
+    domain_.boundary_faces.push_back({side / 4, mesh_.triangle_patch[triangle],
                                       side_points<Index>(domain_.cell_points, side),
-                                      share_.triangle_ids[triangle]});
+                                      mesh_.triangle_ids[triangle]});
   }
 
   void find_rows() {
@@ -172,7 +172,7 @@ class Builder {
   }
 
   void find_neighbours() {
-    std::vector<char> across_face(share_.ghost_owner.size(), 0);
+    std::vector<char> across_face(mesh_.ghost_owner.size(), 0);
     for (const auto& face : cut_faces()) across_face[face.right - owned_] = 1;
     for (Index ghost = owned_; ghost < domain_.total_cells; ++ghost) {
       if (domain_.neighbours.empty() || domain_.neighbours.back().rank != ghost_owner(ghost))
@@ -209,15 +209,15 @@ class Builder {
               [&](Index a, Index b) { return place(a) < place(b); });
   }
 
-  Share share_;
+  RankMesh mesh_;
   const Index owned_;
   Subdomain domain_;
 };
 
 }  // namespace
 
-Subdomain build_subdomain(Share share, Real scale) {
-  return Builder(std::move(share), scale).build();
+Subdomain build_subdomain(RankMesh rank_mesh, Real scale) {
+  return Builder(std::move(rank_mesh), scale).build();
 }
 
 }  // namespace alphadot

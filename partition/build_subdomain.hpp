@@ -1,8 +1,8 @@
-// From a rank's raw share of the mesh to its ordered Subdomain.
+// From a rank's raw mesh to its ordered Subdomain.
 #pragma once
 
 #include "core/types.hpp"
-#include "partition/share.hpp"
+#include "partition/rank_mesh.hpp"
 #include "partition/subdomain.hpp"
 
 namespace alphadot {
@@ -10,6 +10,6 @@ namespace alphadot {
 /// Orders cells and points, finds faces and neighbours and computes metrics of points times `scale`. Needs no
 /// messages: the ghosts alone tell which owned cells others need, and in which order. Throws std::logic_error
 /// when an owned cell has a face without neighbour or boundary triangle (Mesh::validate() excludes it).
-Subdomain build_subdomain(Share share, Real scale);
+Subdomain build_subdomain(RankMesh rank_mesh, Real scale);
 
 }  // namespace alphadot

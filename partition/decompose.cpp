@@ -39,11 +39,11 @@ std::vector<GlobalIndex> sizes(const std::vector<int>& part_of, int parts) {
 }
 
 /// The dual graph's rows of the owned cells, with global ids.
-DistributedGraph graph_of(const Share& share) {
-  const Adjacency local = dual_graph(share.cell_points, share.points.size());
+DistributedGraph graph_of(const RankMesh& rank_mesh) {
+  const Adjacency local = dual_graph(rank_mesh.cell_points, rank_mesh.points.size());
   DistributedGraph out;
-  for (Index cell = 0; cell < share.owned_cells(); ++cell) {
-    for (const Index neighbour : local[cell]) out.items.push_back(share.cell_ids[neighbour]);
+  for (Index cell = 0; cell < rank_mesh.owned_cells(); ++cell) {
+    for (const Index neighbour : local[cell]) out.items.push_back(rank_mesh.cell_ids[neighbour]);
     out.begin.push_back(static_cast<GlobalIndex>(out.items.size()));
   }
   return out;
@@ -82,16 +82,16 @@ std::vector<int> decompose(const Mesh& mesh, int parts) {
   return part_of;
 }
 
-std::vector<int> decompose(const Share& share, int parts, Partitioner partitioner, const std::string& file,
-                           const Communicator& comm) {
-  comm.on_all([&] { check_request(share.global_cells, parts, partitioner, file); });
-  if (parts == 1) return std::vector<int>(static_cast<std::size_t>(share.owned_cells()), 0);
-  DistributedGraph graph = graph_of(share);
+std::vector<int> decompose(const RankMesh& rank_mesh, int parts, Partitioner partitioner,
+                           const std::string& file, const Communicator& comm) {
+  comm.on_all([&] { check_request(rank_mesh.global_cells, parts, partitioner, file); });
+  if (parts == 1) return std::vector<int>(static_cast<std::size_t>(rank_mesh.owned_cells()), 0);
+  DistributedGraph graph = graph_of(rank_mesh);
   auto part_of = partitioner == Partitioner::metis ? metis_on_root(graph, parts, comm)
                                                    : ptscotch_k_way(graph, parts, comm);
   auto size = sizes(part_of, parts);
   comm.sum(std::span<GlobalIndex>(size));
-  comm.on_all([&] { check_parts(size, share.global_cells, file); });
+  comm.on_all([&] { check_parts(size, rank_mesh.global_cells, file); });
   return part_of;
 }
 

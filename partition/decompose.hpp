@@ -5,7 +5,7 @@
 
 #include "core/communicator.hpp"
 #include "partition/mesh.hpp"
-#include "partition/share.hpp"
+#include "partition/rank_mesh.hpp"
 
 namespace alphadot {
 
@@ -21,9 +21,9 @@ inline constexpr GlobalIndex most_cells_for_metis = GlobalIndex{1} << 28;
 /// parts than cells, when a part would be empty, or above METIS's limit.
 std::vector<int> decompose(const Mesh& mesh, int parts);
 
-/// The part of every owned cell of `share`, whose ids must be consecutive from rank to rank. Collective.
+/// The part of every owned cell of `rank_mesh`, whose ids must be consecutive from rank to rank. Collective.
 /// Throws InputError on all ranks as above; `file` is the mesh, for messages.
-std::vector<int> decompose(const Share& share, int parts, Partitioner partitioner, const std::string& file,
-                           const Communicator& comm);
+std::vector<int> decompose(const RankMesh& rank_mesh, int parts, Partitioner partitioner,
+                           const std::string& file, const Communicator& comm);
 
 }  // namespace alphadot

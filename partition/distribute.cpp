@@ -7,7 +7,7 @@
 #include "partition/build_subdomain.hpp"
 #include "partition/decompose.hpp"
 #include "partition/face_matching.hpp"
-#include "partition/share.hpp"
+#include "partition/rank_mesh.hpp"
 #include "partition/subdomain.hpp"
 
 namespace alphadot {
@@ -55,9 +55,9 @@ Subdomain distribute(MeshPart part, const Communicator& comm, Real scale) {
                            std::to_string(max_cells_for_faces),
                        "use more ranks");
   });
-  Share share = gather_share(std::move(part), comm);
+  RankMesh rank_mesh = gather_rank_mesh(std::move(part), comm);
   Subdomain domain;
-  comm.on_all([&] { domain = build_subdomain(std::move(share), scale); });
+  comm.on_all([&] { domain = build_subdomain(std::move(rank_mesh), scale); });
   return domain;
 }
 

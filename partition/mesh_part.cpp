@@ -19,7 +19,7 @@ class Cutter {
  public:
   Cutter(const Mesh& mesh, const std::vector<int>& owner, int ranks)
       : mesh_(mesh),
-        point_shares_(static_cast<GlobalIndex>(mesh.points.size()), ranks),
+        point_slabs_(static_cast<GlobalIndex>(mesh.points.size()), ranks),
         rank_cells_(collect_rows(ranks, static_cast<Index>(mesh.cells.size()),
                                  [&](Index cell) { return std::array{owner[cell]}; })) {
     for (std::size_t patch = 0; patch < mesh.patches.size(); ++patch)
@@ -39,8 +39,8 @@ class Cutter {
       part.cells.push_back(mesh_.cells[cell]);
     }
     for (const Index triangle : rank_triangles_[rank]) part.triangles.push_back(triangles_[triangle]);
-    part.points.assign(mesh_.points.begin() + point_shares_.begin(rank),
-                       mesh_.points.begin() + point_shares_.end(rank));
+    part.points.assign(mesh_.points.begin() + point_slabs_.begin(rank),
+                       mesh_.points.begin() + point_slabs_.end(rank));
     return part;
   }
 
@@ -57,7 +57,7 @@ class Cutter {
   }
 
   const Mesh& mesh_;
-  EqualShares point_shares_;
+  EqualSlabs point_slabs_;
   Adjacency rank_cells_, rank_triangles_;
   std::vector<BoundaryTriangle> triangles_;
 };

@@ -62,10 +62,10 @@ class Refiner {
 
   /// The rank that holds the first point of an edge numbers it.
   void number_edges() {
-    const EqualShares shares(part_.global_points, comm_.size());
+    const EqualSlabs slabs(part_.global_points, comm_.size());
     // Edges ascend, and so do the ranks that hold their first points: they are in the order of the ranks.
     std::vector<int> counts(static_cast<std::size_t>(comm_.size()), 0);
-    for (const Edge& e : edges_) ++counts[static_cast<std::size_t>(shares.rank_of(e.a))];
+    for (const Edge& e : edges_) ++counts[static_cast<std::size_t>(slabs.rank_of(e.a))];
     const auto asked = deliver<Edge>(edges_, counts, comm_);
     auto held = asked.items;
     std::sort(held.begin(), held.end());

@@ -34,15 +34,15 @@ struct MovingTriangle {
 
 class Orderer {
  public:
-  Orderer(const Share& share, int pieces, const Communicator& comm)
-      : share_(share), pieces_(pieces), comm_(comm), box_(bounding_box()) {}
+  Orderer(const RankMesh& rank_mesh, int pieces, const Communicator& comm)
+      : mesh_(rank_mesh), pieces_(pieces), comm_(comm), box_(bounding_box()) {}
 
   OrderedMesh order(const std::vector<int>& piece, std::vector<Vec3> points) const {
     const auto along = pieces_along_curve(piece);
     std::vector<MovingCell> cells(piece.size());
     for (std::size_t i = 0; i < cells.size(); ++i)
       cells[i] = {along[static_cast<std::size_t>(piece[i])], hilbert_position(center(i), box_),
-                  share_.cell_ids[i], corners<4>(share_.cell_points[i])};
+                  mesh_.cell_ids[i], corners<4>(mesh_.cell_points[i])};
     auto triangles = moving_triangles(cells);
     const auto rank_of = [&](const auto& item) {
       return static_cast<int>(GlobalIndex{item.piece} * comm_.size() / pieces_);
@@ -52,9 +52,9 @@ class Orderer {
     std::sort(cells.begin(), cells.end(), [](const auto& a, const auto& b) { return a.place() < b.place(); });
 
     OrderedMesh out;
-    out.part.global_cells = share_.global_cells;
-    out.part.global_points = share_.global_points;
-    out.part.patch_names = share_.patch_names;
+    out.part.global_cells = mesh_.global_cells;
+    out.part.global_points = mesh_.global_points;
+    out.part.patch_names = mesh_.patch_names;
     out.part.points = std::move(points);
     out.piece_begin.assign(static_cast<std::size_t>(pieces_) + 1, 0);
     for (const auto& cell : cells) ++out.piece_begin[static_cast<std::size_t>(cell.piece) + 1];
@@ -69,7 +69,7 @@ class Orderer {
   Box bounding_box() const {
     constexpr Real far = std::numeric_limits<Real>::infinity();
     std::array<Real, 3> lower{far, far, far}, upper{-far, -far, -far};
-    for (const Vec3& point : share_.points)
+    for (const Vec3& point : mesh_.points)
       for (int axis = 0; axis < 3; ++axis) {
         const auto i = static_cast<std::size_t>(axis);
         lower[i] = std::min(lower[i], point[axis]);
@@ -82,14 +82,14 @@ class Orderer {
 
   Vec3 center(std::size_t cell) const {
     Vec3 sum;
-    for (const Index point : share_.cell_points[cell]) sum += 0.25 * share_.points[point];
+    for (const Index point : mesh_.cell_points[cell]) sum += 0.25 * mesh_.points[point];
     return sum;
   }
 
   template <std::size_t n>
   std::array<GlobalIndex, n> corners(const std::array<Index, n>& local) const {
     std::array<GlobalIndex, n> out;
-    for (std::size_t i = 0; i < n; ++i) out[i] = share_.point_ids[local[i]];
+    for (std::size_t i = 0; i < n; ++i) out[i] = mesh_.point_ids[local[i]];
     return out;
   }
 
@@ -119,16 +119,16 @@ class Orderer {
   /// The boundary triangles with the cells behind them.
   std::vector<MovingTriangle> moving_triangles(const std::vector<MovingCell>& cells) const {
     std::vector<MovingTriangle> out;
-    const auto cell_sides = static_cast<Index>(4 * share_.cell_points.size());
-    for_each_face<Index>(share_.cell_points, share_.triangles, share_.points.size(),
+    const auto cell_sides = static_cast<Index>(4 * mesh_.cell_points.size());
+    for_each_face<Index>(mesh_.cell_points, mesh_.triangles, mesh_.points.size(),
                          [&](std::span<const Index> sides) {
                            if (sides.front() >= cell_sides || sides.back() < cell_sides) return;
                            const auto cell = static_cast<std::size_t>(sides.front() / 4);
                            const auto triangle = static_cast<std::size_t>(sides.back() - cell_sides);
                            out.push_back({cells[cell].piece,
                                           cells[cell].old_id,
-                                          {corners<3>(share_.triangles[triangle]),
-                                           share_.triangle_ids[triangle], share_.triangle_patch[triangle]}});
+                                          {corners<3>(mesh_.triangles[triangle]),
+                                           mesh_.triangle_ids[triangle], mesh_.triangle_patch[triangle]}});
                          });
     return out;
   }
@@ -167,7 +167,7 @@ class Orderer {
     out.part.global_triangles = comm_.sum(static_cast<GlobalIndex>(triangles.size()));
   }
 
-  const Share& share_;
+  const RankMesh& mesh_;
   int pieces_;
   const Communicator& comm_;
   Box box_;
@@ -175,9 +175,9 @@ class Orderer {
 
 }  // namespace
 
-OrderedMesh reorder(const Share& share, const std::vector<int>& piece, int pieces, std::vector<Vec3> points,
-                    const Communicator& comm) {
-  return Orderer(share, pieces, comm).order(piece, std::move(points));
+OrderedMesh reorder(const RankMesh& rank_mesh, const std::vector<int>& piece, int pieces,
+                    std::vector<Vec3> points, const Communicator& comm) {
+  return Orderer(rank_mesh, pieces, comm).order(piece, std::move(points));
 }
 
 }  // namespace alphadot

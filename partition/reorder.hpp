@@ -5,7 +5,7 @@
 
 #include "core/communicator.hpp"
 #include "partition/mesh_part.hpp"
-#include "partition/share.hpp"
+#include "partition/rank_mesh.hpp"
 
 namespace alphadot {
 
@@ -17,9 +17,9 @@ struct OrderedMesh {
   std::vector<GlobalIndex> piece_begin;    ///< [pieces + 1] first cell of every piece; the same on every rank
 };
 
-/// `piece`, in [0, pieces): of every owned cell of `share`. `points` is this rank's slab of the mesh's
+/// `piece`, in [0, pieces): of every owned cell of `rank_mesh`. `points` is this rank's slab of the mesh's
 /// points, whose ids stay. Collective.
-OrderedMesh reorder(const Share& share, const std::vector<int>& piece, int pieces, std::vector<Vec3> points,
-                    const Communicator& comm);
+OrderedMesh reorder(const RankMesh& rank_mesh, const std::vector<int>& piece, int pieces,
+                    std::vector<Vec3> points, const Communicator& comm);
 
 }  // namespace alphadot

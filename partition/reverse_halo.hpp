@@ -73,7 +73,13 @@ class ReverseHaloExchange : public ReverseHaloExchangeBytes {
     }
   }
   void exchange() {
+    exchange([] {});
+  }
+  /// The same while `meanwhile` works on cells that are no ghosts elsewhere.
+  template <class Work>
+  void exchange(Work&& meanwhile) {
     start();
+    meanwhile();
     wait();
   }
 

@@ -8,9 +8,9 @@
 namespace alphadot {
 
 Slabs::Slabs(std::span<const GlobalIndex> ids, GlobalIndex total, const Communicator& comm)
-    : comm_(comm), shares_(total, comm.size()) {
+    : comm_(comm), slabs_(total, comm.size()) {
   auto addressed = address(
-      ids.size(), [&](std::size_t i) { return shares_.rank_of(ids[i]); }, comm);
+      ids.size(), [&](std::size_t i) { return slabs_.rank_of(ids[i]); }, comm);
   user_order_ = std::move(addressed.order);
   user_counts_ = std::move(addressed.counts);
   std::vector<GlobalIndex> sent(ids.size());

@@ -11,20 +11,20 @@
 
 namespace alphadot {
 
-/// Ids [0, total) in equal consecutive shares, the last ones perhaps shorter: rank r holds [begin(r),
+/// Ids [0, total) in equal consecutive slabs, the last ones perhaps shorter: rank r holds [begin(r),
 /// end(r)).
-struct EqualShares {
-  EqualShares(GlobalIndex total_ids, int ranks)
-      : total(total_ids), share(std::max<GlobalIndex>(1, (total_ids + ranks - 1) / ranks)) {}
-  int rank_of(GlobalIndex id) const { return static_cast<int>(id / share); }
-  GlobalIndex begin(int rank) const { return std::min(total, share * rank); }
+struct EqualSlabs {
+  EqualSlabs(GlobalIndex total_ids, int ranks)
+      : total(total_ids), slab(std::max<GlobalIndex>(1, (total_ids + ranks - 1) / ranks)) {}
+  int rank_of(GlobalIndex id) const { return static_cast<int>(id / slab); }
+  GlobalIndex begin(int rank) const { return std::min(total, slab * rank); }
   GlobalIndex end(int rank) const { return begin(rank + 1); }
   GlobalIndex size(int rank) const { return end(rank) - begin(rank); }
 
-  GlobalIndex total, share;
+  GlobalIndex total, slab;
 };
 
-/// Rank r's slab is the r-th equal share of the global ids [0, total): slabs one after the other are the
+/// Rank r's slab is the r-th equal part of the global ids [0, total): slabs one after the other are the
 /// order of the mesh file. Moves values between the ranks that use an id and the slab that holds it, with one
 /// all-to-all each way. Several ranks may use one id: they must then send the same value.
 class Slabs {
@@ -32,9 +32,9 @@ class Slabs {
   /// Collective. `ids` are those that this rank uses, each in [0, total).
   Slabs(std::span<const GlobalIndex> ids, GlobalIndex total, const Communicator& comm);
 
-  GlobalIndex total() const { return shares_.total; }
-  GlobalIndex begin() const { return shares_.begin(comm_.rank()); }  ///< first id of this rank's slab
-  GlobalIndex size() const { return shares_.size(comm_.rank()); }    ///< of this rank's slab
+  GlobalIndex total() const { return slabs_.total; }
+  GlobalIndex begin() const { return slabs_.begin(comm_.rank()); }  ///< first id of this rank's slab
+  GlobalIndex size() const { return slabs_.size(comm_.rank()); }    ///< of this rank's slab
 
   /// values[i] belongs to ids[i]; returns the values of this rank's slab. Collective.
   template <class T>
@@ -67,7 +67,7 @@ class Slabs {
 
  private:
   Communicator comm_;
-  EqualShares shares_;
+  EqualSlabs slabs_;
   std::vector<Index> user_order_;  ///< this rank's ids in the order of the slabs that hold them: positions
   std::vector<Index> slab_rows_;   ///< rows of this rank's slab in the order in which their values arrive
   std::vector<int> user_counts_, holder_counts_;  ///< values to each holder, values from each user

@@ -37,10 +37,10 @@ std::optional<std::pair<int, Variable>> derivative_of_name(std::string_view name
                    static_cast<Variable>(variable - variable_names.begin())};
 }
 
-void EstimatedDerivatives::add(std::string source, DerivativeSetOf<Real> share) {
+void EstimatedDerivatives::add(std::string source, DerivativeSetOf<Real> half_width) {
   for (auto& [variable, column] : derivatives)
-    for (int i = 0; i < column.size(); ++i) column[i].uncertainty += share.at(variable)[i];
-  parts.push_back({std::move(source), std::move(share)});
+    for (int i = 0; i < column.size(); ++i) column[i].uncertainty += half_width.at(variable)[i];
+  parts.push_back({std::move(source), std::move(half_width)});
 }
 
 Real quasi_steady_limit(Real by_angle, Real by_second_rate, Real share) {

@@ -45,10 +45,11 @@ template <class T>
 using DerivativeSetOf = std::map<Variable, CoefficientsOf<T>>;
 using DerivativeSet = DerivativeSetOf<Estimate>;
 
-/// One source of uncertainty, "linear", "mesh", "time_step", ..., and its share in that of every entry.
+/// One source of uncertainty, "linear", "mesh", "time_step", ..., and what it adds to the half width of every
+/// entry.
 struct UncertaintyPart {
   std::string source;
-  DerivativeSetOf<Real> share;
+  DerivativeSetOf<Real> half_width;
 };
 
 /// Derivatives, and the parts that their uncertainties are the sums of.
@@ -60,7 +61,7 @@ struct EstimatedDerivatives {
 
   const CoefficientsOf<Estimate>& at(Variable variable) const { return derivatives.at(variable); }
   /// Adds a part to the uncertainties.
-  void add(std::string source, DerivativeSetOf<Real> share);
+  void add(std::string source, DerivativeSetOf<Real> half_width);
 };
 
 /// Reduced frequency at which the second-order term of X = (X_alpha + i k X_alphadot - k^2 X_alphaddot) alpha

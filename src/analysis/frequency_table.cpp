@@ -7,6 +7,8 @@
 #include <numbers>
 #include <string_view>
 
+#include "core/csv.hpp"
+
 namespace alphadot {
 
 namespace {
@@ -36,25 +38,21 @@ Real FrequencyRow::phase() const {
 }
 
 std::string frequency_csv(std::span<const FrequencyRow> rows, const TableHead& head) {
-  std::string out;
-  const std::string text = head_text(head);
-  for (std::size_t begin = 0; begin < text.size();) {
-    const auto end = std::min(text.find('\n', begin), text.size());
-    out += "# " + text.substr(begin, end - begin) + "\n";
-    begin = end + 1;
-  }
-  out +=
-      "# load = (in_phase + i k out_of_phase) exp(i k t*) of a variable cos(k t*), t* = 2 V t / length; "
-      "phase of "
-      "the load ahead of the variable\n"
+  std::string out =
+      csv_comment(
+          head_text(head) +
+          "load = (in_phase + i k out_of_phase) exp(i k t*) of a variable cos(k t*), t* = 2 V t / length; "
+          "phase of the load ahead of the variable\n") +
       "k,part,coefficient,variable,in_phase,in_phase_uncertainty,out_of_phase,out_of_phase_uncertainty,"
       "modulus,"
       "phase_deg,converged\n";
+  const auto digits = [](Real number) { return fmt::format("{:.17g}", number); };
+  const auto few = [](Real number) { return fmt::format("{:.3g}", number); };
   for (const auto& row : rows)
-    out += fmt::format("{:.17g},{},{},{},{:.17g},{:.3g},{:.17g},{:.3g},{:.17g},{:.17g},{}\n", row.k, row.part,
-                       row.coefficient, name(row.variable), row.in_phase.value, row.in_phase.uncertainty,
-                       row.out_of_phase.value, row.out_of_phase.uncertainty, row.modulus(), row.phase(),
-                       row.converged ? "yes" : "no");
+    out += csv_line(std::vector<std::string>{
+        digits(row.k), row.part, row.coefficient, std::string(name(row.variable)), digits(row.in_phase.value),
+        few(row.in_phase.uncertainty), digits(row.out_of_phase.value), few(row.out_of_phase.uncertainty),
+        digits(row.modulus()), digits(row.phase()), row.converged ? "yes" : "no"});
   return out;
 }
 

@@ -58,13 +58,13 @@ DerivativeSet moment_transfer(const DerivativeSet& about_old, const Vec3& offset
 
 EstimatedDerivatives moment_transfer(const EstimatedDerivatives& about_old, const Vec3& offset) {
   EstimatedDerivatives moved{moment_transfer(about_old.derivatives, offset), {}, about_old.unconverged};
-  for (const auto& [source, share] : about_old.parts) {
+  for (const auto& [source, half_width] : about_old.parts) {
     DerivativeSet bounds;
-    for (const auto& [variable, column] : share)
+    for (const auto& [variable, column] : half_width)
       for (int i = 0; i < column.size(); ++i) bounds[variable][i].uncertainty = column[i];
     auto& part = moved.parts.emplace_back(UncertaintyPart{source, {}});
     for (const auto& [variable, column] : moment_transfer(bounds, offset))
-      for (int i = 0; i < column.size(); ++i) part.share[variable][i] = column[i].uncertainty;
+      for (int i = 0; i < column.size(); ++i) part.half_width[variable][i] = column[i].uncertainty;
   }
   for (const auto& [variable, column] : about_old.derivatives) {
     const auto [alpha, beta, surge] = wind_change(variable, offset);

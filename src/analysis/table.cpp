@@ -4,26 +4,17 @@
 
 #include <algorithm>
 
+#include "core/csv.hpp"
+
 namespace alphadot {
 
 namespace {
-
-/// The text with `prefix` before every line.
-std::string prefixed(const std::string& text, const std::string& prefix) {
-  std::string out;
-  for (std::size_t begin = 0; begin < text.size();) {
-    const std::size_t end = text.find('\n', begin) + 1;
-    out += prefix + text.substr(begin, end - begin);
-    begin = end;
-  }
-  return out;
-}
 
 /// Of the parts of the uncertainty.
 std::vector<std::string> sources_of(std::span<const TableRow> rows) {
   std::vector<std::string> out;
   if (!rows.empty())
-    for (const auto& [source, share] : rows.front().parts) out.push_back(source);
+    for (const auto& [source, half_width] : rows.front().parts) out.push_back(source);
   return out;
 }
 
@@ -38,7 +29,8 @@ std::vector<TableRow> rows_of(const DerivativeSet& derivatives, const std::strin
         auto& row = rows.emplace_back(TableRow{
             derivative_name(names_in(axes)[static_cast<std::size_t>(c)], variable), values[c], method, {}});
         row.converged = !unconverged.contains(variable);
-        for (const auto& [source, share] : parts) row.parts.emplace_back(source, share.at(variable)[c]);
+        for (const auto& [source, half_width] : parts)
+          row.parts.emplace_back(source, half_width.at(variable)[c]);
       }
   return rows;
 }
@@ -80,21 +72,23 @@ std::string derivative_table(std::span<const TableRow> rows, const TableHead& he
   for (const auto& row : rows) {
     out +=
         fmt::format("{:<{}} {:>13.6g} ± {:<12.2g} ", row.name, width, row.value.value, row.value.uncertainty);
-    for (const auto& [source, share] : row.parts) out += fmt::format("{:<9.2g} ", share);
+    for (const auto& [source, half_width] : row.parts) out += fmt::format("{:<9.2g} ", half_width);
     out += row.method + (row.converged ? "\n" : "; not converged\n");
   }
   return out;
 }
 
 std::string derivative_csv(std::span<const TableRow> rows, const TableHead& head, Axes axes) {
-  std::string out = prefixed(head_text(head, axes), "# ") + "name,value,uncertainty,method,converged";
-  for (const auto& source : sources_of(rows)) out += "," + source;
-  out += "\n";
+  std::vector<std::string> names{"name", "value", "uncertainty", "method", "converged"};
+  const auto sources = sources_of(rows);
+  names.insert(names.end(), sources.begin(), sources.end());
+  std::string out = csv_comment(head_text(head, axes)) + csv_line(names);
+  const auto digits = [](Real number) { return fmt::format("{:.17g}", number); };
   for (const auto& [name, value, method, parts, converged] : rows) {
-    out += fmt::format("{},{:.17g},{:.17g},\"{}\",{}", name, value.value, value.uncertainty, method,
-                       converged ? "yes" : "no");
-    for (const auto& [source, share] : parts) out += fmt::format(",{:.17g}", share);
-    out += "\n";
+    std::vector<std::string> cells{name, digits(value.value), digits(value.uncertainty), method,
+                                   converged ? "yes" : "no"};
+    for (const auto& [source, part] : parts) cells.push_back(digits(part));
+    out += csv_line(cells);
   }
   return out;
 }

@@ -51,7 +51,7 @@ Center parse_center(const std::string& text) {
 
 std::vector<Center> read_centers(const std::string& path) {
   constexpr std::uintmax_t most_bytes = 1 << 24;
-  std::istringstream lines(read_text_file(path, "file of centres", most_bytes));
+  std::istringstream lines(read_file(path, "file of centres", most_bytes));
   std::vector<Center> out;
   int number = 0;
   for (std::string line; std::getline(lines, line);) {

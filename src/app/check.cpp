@@ -3,9 +3,10 @@
 
 #include "app/coarser_meshes.hpp"
 #include "app/configuration_view.hpp"
-#include "app/setup.hpp"
+#include "app/load_case.hpp"
 #include "app/verbs.hpp"
-#include "io/case_file.hpp"
+#include "case_file/case_file.hpp"
+#include "derivatives/setup.hpp"
 
 namespace alphadot {
 

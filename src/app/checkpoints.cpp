@@ -1,4 +1,5 @@
 #include "app/checkpoints.hpp"
+#include "case_file/history_info.hpp"
 
 #include <fmt/format.h>
 
@@ -7,10 +8,10 @@
 #include <utility>
 
 #include "app/stop.hpp"
+#include "case_file/case_difference.hpp"
+#include "case_file/case_file.hpp"
 #include "core/error.hpp"
 #include "core/log.hpp"
-#include "io/case_difference.hpp"
-#include "io/case_file.hpp"
 #include "io/seal.hpp"
 
 namespace alphadot {

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "app/setup.hpp"
 #include "core/timer.hpp"
+#include "derivatives/setup.hpp"
 #include "io/checkpoint.hpp"
 #include "io/checkpoint_folder.hpp"
 #include "march/implicit_iteration.hpp"

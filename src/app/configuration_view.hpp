@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "app/setup.hpp"
+#include "derivatives/setup.hpp"
 #include "io/result.hpp"
 
 namespace alphadot {

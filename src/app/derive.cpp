@@ -89,7 +89,7 @@ Json json_of(const Moved& moved) {
                                            {"uncertainty", row.value.uncertainty},
                                            {"method", row.method},
                                            {"converged", row.converged}};
-    for (const auto& [source, share] : row.parts) entry["parts"][source] = share;
+    for (const auto& [source, half_width] : row.parts) entry["parts"][source] = half_width;
   }
   Json loads = Json::object();
   for (int i = 0; i < Coefficients::size(); ++i) {

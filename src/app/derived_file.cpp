@@ -7,8 +7,8 @@
 #include <filesystem>
 #include <set>
 
-#include "app/extraction.hpp"
 #include "core/error.hpp"
+#include "derivatives/extraction.hpp"
 #include "io/history.hpp"
 #include "io/result.hpp"
 
@@ -35,7 +35,7 @@ EstimatedDerivatives columns_of(const Result& result, const std::string& file) {
     if (!std::ranges::equal(out.parts, entry.parts, same))
       refuse(file, fmt::format("the uncertainty of {} has other parts than the first one's", name));
     for (std::size_t i = 0; i < entry.parts.size(); ++i)
-      out.parts[i].share[variable][coefficient] = entry.parts[i].second;
+      out.parts[i].half_width[variable][coefficient] = entry.parts[i].second;
   }
   return out;
 }
@@ -88,8 +88,8 @@ DerivedFile from_history(const std::string& file) {
     throw InputError(file, 0, problem.what, problem.remedy);
   }
   if (extraction.estimated.derivatives.empty())
-    refuse(file, fmt::format("holds no derivatives: a motion of kind {} yields none",
-                             motion_name(info.motion.kind)));
+    refuse(file,
+           fmt::format("holds no derivatives: a motion of kind {} yields none", word_of(info.motion.kind)));
   const auto end = std::min(info.status.find(": "), info.status.size());
   DerivedFile out{file,
                   info.status.substr(0, end),

@@ -5,13 +5,13 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "app/extraction.hpp"
 #include "app/verbs.hpp"
 #include "core/error.hpp"
+#include "derivatives/extraction.hpp"
 #include "io/checkpoint.hpp"
+#include "io/files.hpp"
 #include "io/foreign_files.hpp"
 #include "io/mesh_reader.hpp"
 #include "io/partitioned_mesh.hpp"
@@ -44,8 +44,8 @@ void describe_history(const std::string& file) {
   const auto& info = history.info;
   fmt::print(
       "history {}: {} steps, {} at k = {}, Mach {}, mesh {}, written by alphadot {}\n  columns: {}\n  {}\n",
-      file, history.steps(), motion_name(info.motion.kind), info.motion.reduced_frequency,
-      info.freestream.mach, info.mesh_hash, info.version, fmt::join(history.names(), " "), info.conventions);
+      file, history.steps(), word_of(info.motion.kind), info.motion.reduced_frequency, info.freestream.mach,
+      info.mesh_hash, info.version, fmt::join(history.names(), " "), info.conventions);
 }
 
 /// Where the march of a checkpoint stands.
@@ -54,8 +54,8 @@ std::string place_of(const CheckpointHead& head) {
   if (head.phase == "motion") {
     const auto& history = head.history;
     const Real time = history.steps() > 0 ? history.column("t_star").back() : 0;
-    return fmt::format("motion ({}), step {}, t* = {:.6g}", motion_name(history.info.motion.kind),
-                       number("step"), time);
+    return fmt::format("motion ({}), step {}, t* = {:.6g}", word_of(history.info.motion.kind), number("step"),
+                       time);
   }
   const auto drop = std::log10(number("residuals", 0) / std::max(number("residuals", 1), 1e-300));
   return fmt::format("{}, iteration {}, residual down by {:.2f} decades, CFL {:.3g}",
@@ -83,8 +83,7 @@ void describe_checkpoint(const std::string& file) {
 }
 
 void describe_result(const std::string& file) {
-  std::ifstream in(file);
-  const auto json = nlohmann::json::parse(in, nullptr, false);
+  const auto json = nlohmann::json::parse(read_file(file, "result"), nullptr, false);
   if (json.is_discarded() || !json.contains("status"))
     throw InputError(file, 0, "this is not a result of alphadot", "give the result.json of a run's folder");
   fmt::print("{}\n", json.dump(2));

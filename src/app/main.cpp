@@ -10,15 +10,13 @@
 #include <new>
 #include <string>
 
-#include "app/adjoint.hpp"
 #include "app/centers.hpp"
 #include "app/companion.hpp"
 #include "app/described_case.hpp"
-#include "app/frequency.hpp"
 #include "app/verbs.hpp"
+#include "case_file/case_file.hpp"
 #include "core/error.hpp"
 #include "core/log.hpp"
-#include "io/case_file.hpp"
 #include "io/provenance.hpp"
 
 namespace {

@@ -41,8 +41,8 @@ MeshPart read_part(const std::string& file, std::span<const std::string> thin, c
     for (auto& note : open_thin_walls(mesh, thin)) mesh.notes.push_back(std::move(note));
     for (const auto& note : mesh.notes) spdlog::info("{}: {}", file, note);
     mesh.validate();
-    const EqualShares shares(static_cast<GlobalIndex>(mesh.cells.size()), comm.size());
-    for (GlobalIndex cell = 0; cell < shares.total; ++cell) owner.push_back(shares.rank_of(cell));
+    const EqualSlabs slabs(static_cast<GlobalIndex>(mesh.cells.size()), comm.size());
+    for (GlobalIndex cell = 0; cell < slabs.total; ++cell) owner.push_back(slabs.rank_of(cell));
   });
   return scatter(mesh, owner, comm);
 }
@@ -81,19 +81,19 @@ RunStatus partition_verb(const PartitionArguments& arguments, const Communicator
   for (int level = 0; level < arguments.refinements; ++level) part = refine(std::move(part), comm);
   auto points = part.points;
   const auto file = part.file;
-  const Share share = gather_share(std::move(part), comm);
-  const auto piece = decompose(share, arguments.pieces, arguments.partitioner, file, comm);
-  const auto mesh = reorder(share, piece, arguments.pieces, std::move(points), comm);
+  const RankMesh rank_mesh = gather_rank_mesh(std::move(part), comm);
+  const auto piece = decompose(rank_mesh, arguments.pieces, arguments.partitioner, file, comm);
+  const auto mesh = reorder(rank_mesh, piece, arguments.pieces, std::move(points), comm);
   const auto hash = write_partitioned_mesh(output_of(arguments), mesh, comm);
 
   GlobalIndex largest = 0;
   for (std::size_t i = 0; i + 1 < mesh.piece_begin.size(); ++i)
     largest = std::max(largest, mesh.piece_begin[i + 1] - mesh.piece_begin[i]);
-  const auto cells = static_cast<Real>(share.global_cells);
+  const auto cells = static_cast<Real>(rank_mesh.global_cells);
   spdlog::info(
       "{}: {} cells, {} points in {} pieces, the largest {:.2f} % above the mean; hash {}\n{:.0f} s, at most "
       "{:.2f} GB on a rank",
-      output_of(arguments), share.global_cells, share.global_points, arguments.pieces,
+      output_of(arguments), rank_mesh.global_cells, rank_mesh.global_points, arguments.pieces,
       100 * (static_cast<Real>(largest) * arguments.pieces / cells - 1), hash, time.wall(),
       1e-9 * comm.max(peak_resident_bytes()));
   return RunStatus::completed;

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "app/setup.hpp"
+#include "derivatives/setup.hpp"
 #include "march/implicit_iteration.hpp"
 
 namespace alphadot {

@@ -6,11 +6,14 @@
 #include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <utility>
 
-#include "app/extraction.hpp"
+#include "core/csv.hpp"
 #include "core/log.hpp"
+#include "derivatives/extraction.hpp"
 #include "derivatives/loads.hpp"
+#include "io/files.hpp"
 
 namespace alphadot {
 
@@ -23,7 +26,7 @@ constexpr char steady_columns[] = "iteration,orders,cfl,CA,CY,CN,Cl,Cm,Cn";
 
 /// The head of a table of iterations and the rows up to one of them that the table has so far.
 std::string rows_up_to(const std::string& path, const std::string& head, int iteration) {
-  std::ifstream in(path);
+  std::istringstream in(content_of(path));
   std::string out = head, line;
   while (std::getline(in, line) && line.starts_with('#')) continue;
   if (line != steady_columns) return out;
@@ -63,7 +66,7 @@ std::string duration_text(Real seconds) {
 
 Progress::Progress(const Case& settings, const Origin& origin, std::string folder, bool is_root)
     : settings_(settings),
-      steady_head_(fmt::format("# Flow: {}\n{}\n", origin.text(), steady_columns)),
+      steady_head_(csv_comment("Flow: " + origin.text()) + steady_columns + '\n'),
       folder_(std::move(folder)),
       is_root_(is_root) {}
 
@@ -101,8 +104,10 @@ void Progress::begin_steady(int iteration) {
 void Progress::show(const SteadyProgress& progress) {
   if (!is_root_) return;
   const auto loads = coefficients(progress.report.total, settings_);
-  table_->append(fmt::format("{},{:.6g},{:.6g},{},{},{},{},{},{}\n", progress.iteration, progress.orders,
-                             progress.cfl, loads.CA, loads.CY, loads.CN, loads.Cl, loads.Cm, loads.Cn));
+  std::vector<std::string> cells{fmt::format("{}", progress.iteration),
+                                 fmt::format("{:.6g}", progress.orders), fmt::format("{:.6g}", progress.cfl)};
+  for (int i = 0; i < Coefficients::size(); ++i) cells.push_back(fmt::format("{}", loads[i]));
+  table_->append(csv_line(cells));
   forecast_.add(clock_.wall(), progress.orders);
   if (!is_due() && progress.orders < settings_.steady.orders) return;
   const Real left = forecast_.seconds_to(settings_.steady.orders);

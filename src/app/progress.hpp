@@ -7,7 +7,7 @@
 #include "analysis/residual_forecast.hpp"
 #include "analysis/table.hpp"
 #include "core/timer.hpp"
-#include "io/case.hpp"
+#include "derivatives/case.hpp"
 #include "io/history.hpp"
 #include "io/live_table.hpp"
 #include "io/result.hpp"

@@ -4,15 +4,17 @@
 #include <algorithm>
 
 #include "analysis/table.hpp"
-#include "app/extraction.hpp"
-#include "app/flow_case.hpp"
-#include "app/motion_setup.hpp"
+#include "app/case_run.hpp"
+#include "app/load_case.hpp"
 #include "app/stop.hpp"
 #include "app/watchdog.hpp"
+#include "case_file/history_info.hpp"
 #include "core/error.hpp"
 #include "core/log.hpp"
 #include "core/timer.hpp"
+#include "derivatives/extraction.hpp"
 #include "derivatives/loads.hpp"
+#include "derivatives/time_plan.hpp"
 #include "io/history.hpp"
 #include "march/dual_time.hpp"
 
@@ -27,6 +29,7 @@ void append(History::Row& row, const std::string& group, const Coefficients& c) 
 History::Row history_row(const StepReport& step, const FlowCase& flow) {
   const Case& settings = flow.settings();
   const Real rate = settings.reference.length / (2 * settings.freestream.mach);
+  const Vec3 rotation = on_turned_axes(step.attitude.rotation, step.attitude.angle);  // along body axes
   History::Row row{{"step", step.step},
                    {"time", step.time},
                    {"t_star", flow.motion().reduced_time(step.time)},
@@ -35,9 +38,9 @@ History::Row history_row(const StepReport& step, const FlowCase& flow) {
                    {"phi", -step.attitude.angle.x},
                    {"theta", step.attitude.angle.y},
                    {"psi", -step.attitude.angle.z},
-                   {"p", -rate * step.attitude.rotation.x},
-                   {"q", rate * step.attitude.rotation.y},
-                   {"r", -rate * step.attitude.rotation.z},
+                   {"p", -rate * rotation.x},
+                   {"q", rate * rotation.y},
+                   {"r", -rate * rotation.z},
                    {"inner_iterations", step.inner_iterations},
                    {"inner_orders", step.inner_orders},
                    {"inner_left", step.inner_left}};
@@ -54,33 +57,34 @@ std::vector<CheckpointField> levels_of(DualTime& dual_time) {
   return {{"latest_level", dual_time.latest_level()}, {"level_before", dual_time.level_before()}};
 }
 
-void save(FlowCase& flow, DualTime& dual_time, const History& history) {
-  auto head = flow.checkpoint_head("motion");
+void save(CaseRun& run, DualTime& dual_time, const History& history) {
+  auto head = run.contents().head("motion");
   const auto& state = dual_time.state();
   head.numbers["step"] = {static_cast<Real>(state.step)};
   head.numbers["largest"] = {state.largest_angle, state.largest_moment};
   head.history = history;
-  flow.save(head, levels_of(dual_time));
+  run.contents().save(head, levels_of(dual_time));
 }
 
-void restore(const CheckpointHead& head, FlowCase& flow, DualTime& dual_time, History& history) {
-  flow.restore(levels_of(dual_time));
+void restore(const CheckpointHead& head, CaseRun& run, DualTime& dual_time, History& history) {
+  run.contents().restore(levels_of(dual_time));
   const auto& numbers = head.numbers;
   dual_time.restore(
       {static_cast<int>(numbers.at("step").at(0)), numbers.at("largest").at(0), numbers.at("largest").at(1)});
   history = head.history;
   // The next linearisation, and the pictures, begin with ghosts and gradients of this flow.
-  flow.iteration().evaluate(flow.conditions(), flow.settings().space.order);
+  run.flow().iteration().evaluate(run.flow().conditions(), run.settings().space.order);
 }
 
-RunStatus follow_motion(FlowCase& flow, History& history) {
+RunStatus follow_motion(CaseRun& run, History& history) {
+  FlowCase& flow = run.flow();
   const Case& settings = flow.settings();
   const auto [time_step, steps, tolerance] = time_plan(settings, flow.motion());
   DualTime dual_time(flow.iteration(), flow.motion(), settings.motion.axis_point, time_step,
                      flow.steady_report().total, flow.treatment(time_step));
-  const auto* restart = flow.checkpoints().restart();
+  const auto* restart = run.checkpoints().restart();
   flow.iteration().freeze_limiter(false);  // shocks move
-  if (restart && restart->phase == "motion") restore(*restart, flow, dual_time, history);
+  if (restart && restart->phase == "motion") restore(*restart, run, dual_time, history);
   if (dual_time.step() > steps)
     throw InputError(settings.file, 0,
                      fmt::format("the checkpoint was made after step {} of the motion, which has {} steps",
@@ -91,7 +95,7 @@ RunStatus follow_motion(FlowCase& flow, History& history) {
     history.append(history_row(dual_time.before(), flow));
     if (flow.motion().starts_with_jump()) history.append(history_row(dual_time.just_after_start(), flow));
   }
-  flow.progress().begin_motion(history, steps);
+  run.progress().begin_motion(history, steps);
   const Watchdog watchdog(
       settings.checkpoint.watchdog_minutes, [&] { return flow.iteration().iterations(); },
       flow.communicator());
@@ -99,29 +103,26 @@ RunStatus follow_motion(FlowCase& flow, History& history) {
   while (dual_time.step() < steps) {
     const auto step = dual_time.advance(tolerance);
     history.append(history_row(step, flow));
-    flow.progress().show(step, history);
-    const Request request = flow.checkpoints().request(interval > 0 && step.step % interval == 0);
-    if (request.save || step.step == steps) save(flow, dual_time, history);
-    if (request.stop && step.step < steps) {
-      flow.set_message(flow.checkpoints().stop_reason());
-      return RunStatus::interrupted;
-    }
+    run.progress().show(step, history);
+    const Request request = run.checkpoints().request(interval > 0 && step.step % interval == 0);
+    if (request.save || step.step == steps) save(run, dual_time, history);
+    if (request.stop && step.step < steps) return RunStatus::interrupted;
   }
   return RunStatus::completed;
 }
 
 /// Derivatives from the whole motion. A history that yields none is no reason to lose the rest.
-Extraction extract(FlowCase& flow, const History& history) {
+Extraction extract(RunRecord& record, const History& history) {
   try {
     return extract_derivatives(history);
   } catch (const InputError& error) {
-    flow.fall_short(fmt::format("no derivatives: {}", error.what()));
+    record.fall_short(fmt::format("no derivatives: {}", error.what()));
     return {};
   }
 }
 
 /// Says when inner iterations of steps that the derivatives rest on did not reach their tolerance.
-void judge_steps(FlowCase& flow, const History& history) {
+void judge_steps(RunRecord& record, const History& history) {
   const auto [first, last] = fitted_rows(history);
   const auto& left = history.column("inner_left");
   std::size_t loose = 0;
@@ -132,7 +133,7 @@ void judge_steps(FlowCase& flow, const History& history) {
     worst = std::max(worst, left[row]);
   }
   if (loose > 0)
-    flow.fall_short(fmt::format(
+    record.fall_short(fmt::format(
         "the inner iterations of {} of {} time steps left up to {:.2g} times what unsteady.inner_tolerance "
         "allows",
         loose, last - first, worst));
@@ -142,40 +143,36 @@ void judge_steps(FlowCase& flow, const History& history) {
 
 RunStatus run_verb(const CaseArguments& arguments, const Communicator& comm) {
   const SignalListener signals;
-  FlowCase flow(load_case(arguments.case_file, arguments.overrides, comm), arguments, "run", comm);
-  flow.announce();
-  const Setup& setup = flow.setup();
+  CaseRun run(load_case(arguments.case_file, arguments.overrides, comm), arguments, "run", comm);
+  auto& record = run.record();
+  record.announce();
+  const Setup& setup = run.flow().setup();
   History history(history_info(setup.settings, setup.mesh.hash, setup.motion_table_hash));
   Extraction extraction;
-  RunStatus status = RunStatus::error;
   Real motion_cpu = not_measured;
-  try {
-    status = flow.march();
-    if (status != RunStatus::interrupted && flow.settings().motion.kind != MotionKind::none) {
-      const Timer timer;
-      status = follow_motion(flow, history);
-      motion_cpu = timer.cpu();
-      if (status == RunStatus::completed) {
-        judge_steps(flow, history);
-        extraction = extract(flow, history);
-      }
+  const RunStatus status = run.carry_out([&](RunStatus marched) {
+    if (run.settings().motion.kind == MotionKind::none) return marched;
+    const Timer timer;
+    const RunStatus followed = follow_motion(run, history);
+    motion_cpu = timer.cpu();
+    if (followed == RunStatus::completed) {
+      judge_steps(record, history);
+      extraction = extract(record, history);
     }
-  } catch (const DivergedError& error) {
-    status = RunStatus::diverged;
-    flow.report_divergence(error);
-  }
+    return followed;
+  });
 
   const auto& estimated = extraction.estimated;
   auto rows = rows_of(estimated.derivatives, extraction.method, Axes::body, estimated.parts);
-  for (auto& row : rows) row.converged = flow.shortfalls().empty();
-  history.info.status = flow.table_head(status, rows).status;
-  if (history.steps() > 0 && !flow.keeps_result_of_before(status))
-    comm.on_root([&] { write_history(flow.folder(), history); });
-  Result result = flow.result(status, rows);
+  for (auto& row : rows) row.converged = record.shortfalls().empty();
+  history.info.status = record.table_head(status, rows).status;
+  if (history.steps() > 0 && !record.keeps_result_of_before(status))
+    comm.on_root([&] { write_history(record.folder(), history); });
+  Result result = record.result(status, rows);
   result.performance.motion_cpu_s = comm.sum(motion_cpu);
-  flow.write(result);
-  flow.print(result, rows);
-  flow.print_end(result);
+  record.write(result);
+  record.print(result, rows);
+  record.print_end(result);
   return result.status;
 }
 

@@ -6,17 +6,17 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <string_view>
 #include <utility>
 #include <vector>
 
+#include "case_file/case_difference.hpp"
+#include "case_file/case_file.hpp"
 #include "core/error.hpp"
 #include "core/run_status.hpp"
-#include "io/case_difference.hpp"
-#include "io/case_file.hpp"
 #include "io/checkpoint_folder.hpp"
+#include "io/files.hpp"
 
 namespace alphadot {
 
@@ -131,8 +131,7 @@ void RunFolder::refuse_inputs(const Setup& setup) const {
 
 void RunFolder::admit(const Setup& setup, const std::string& verb, bool may_overwrite) {
   refuse_inputs(setup);
-  std::ifstream in(fs::path(folder_) / result_name);
-  const auto result = in ? nlohmann::json::parse(in, nullptr, false) : nlohmann::json();
+  const auto result = nlohmann::json::parse(content_of(fs::path(folder_) / result_name), nullptr, false);
   const auto status = text_of(result, "status");
   for (const auto end : {RunStatus::converged, RunStatus::completed, RunStatus::unconverged})
     if (status == to_string(end)) holds_result_ = true;

@@ -4,7 +4,7 @@
 #include <map>
 #include <string>
 
-#include "app/setup.hpp"
+#include "derivatives/setup.hpp"
 #include "io/files.hpp"
 
 namespace alphadot {

@@ -7,12 +7,12 @@
 #include <chrono>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <span>
 #include <vector>
 
 #include "app/progress.hpp"
+#include "io/files.hpp"
 #include "io/live_table.hpp"
 
 namespace alphadot {
@@ -26,8 +26,7 @@ constexpr std::size_t bars = 60;  // of a row
 
 /// Null where there is no such file or no JSON in it.
 Json read_json(const std::string& path) {
-  std::ifstream in(path);
-  auto json = in ? Json::parse(in, nullptr, false) : Json();
+  auto json = Json::parse(content_of(path), nullptr, false);
   return json.is_object() ? json : Json();
 }
 

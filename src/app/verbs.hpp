@@ -49,6 +49,15 @@ RunStatus run_verb(const CaseArguments& arguments, const Communicator& comm);
 /// respect to alpha, q and alphadot, and on a full model beta, p, r and betadot.
 RunStatus derivatives_verb(const CaseArguments& arguments, const Communicator& comm);
 
+/// Steady state, then the adjoints of loads: `of` names them ("Cm", "Cm_alphadot", "CN@fin_1+fin_2"; none:
+/// all coefficients). Writes their derivatives, and the fields that show which cells a load listens to.
+RunStatus adjoint_verb(const CaseArguments& arguments, const std::vector<std::string>& of,
+                       const Communicator& comm);
+
+/// Steady state, then its linear responses to flight variables that oscillate at the reduced frequencies `k`
+/// = omega length / 2V: alpha and q, on a full model beta, p and r too.
+RunStatus frequency_verb(const CaseArguments& arguments, std::vector<Real> k, const Communicator& comm);
+
 /// Reads and checks case and mesh; prints what is improbable first, then what a run would work on, and on
 /// demand the whole case with every default.
 RunStatus check_verb(const CaseArguments& arguments, bool whole_case, const Communicator& comm);

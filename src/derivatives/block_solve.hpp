@@ -212,7 +212,7 @@ class BlockSolve {
             preconditioner_.can_be_damped() &&
             std::ranges::any_of(records_, [](const auto& r) { return Preconditioner::has_stalled(r.norms); });
       }
-      for (std::size_t k = 0; k < N; ++k) space_.move(fields_[k], searches[k].shares);
+      for (std::size_t k = 0; k < N; ++k) space_.move(fields_[k], searches[k].coefficients);
       if (stalls) {
         preconditioner_.damp();
         at_level = 0;

@@ -49,6 +49,11 @@ std::string Functional::name() const {
                      suffixes[static_cast<std::size_t>(rates)], at_patches(*this));
 }
 
+bool vanishes(int coefficient, const FlightCondition& settings) {
+  const Load weight = coefficient_weight(coefficient, settings);
+  return norm(weight.force) + norm(weight.moment) == 0;
+}
+
 Functional parse_functional(std::string_view name, const std::string& where, const FlightCondition& settings,
                             const std::map<std::string, BoundaryKind>& boundary) {
   Functional out;
@@ -72,8 +77,7 @@ Functional parse_functional(std::string_view name, const std::string& where, con
       throw InputError(where, 0, fmt::format("\"{}\" is no wall of the case", patch),
                        "name patches that [boundary] makes walls");
   }
-  const Load weight = coefficient_weight(out.coefficient, settings);
-  if (norm(weight.force) + norm(weight.moment) == 0)
+  if (vanishes(out.coefficient, settings))
     throw InputError(where, 0, fmt::format("{} of a half model is zero", coefficient),
                      "name CA, CN or Cm, or mesh both halves");
   return out;

@@ -20,10 +20,12 @@ struct Functional {
 
   /// "Cm", "Cm_alphadot", "CN@fin_1+fin_2".
   std::string name() const;
-  /// The one that is differentiated by the angles themselves, and the one before in the chain.
-  Functional of_angles() const { return {coefficient, patches, 0}; }
+  /// The one before in the chain of those to rates.
   Functional before() const { return {coefficient, patches, rates - 1}; }
 };
+
+/// Whether symmetry makes a coefficient, by its number, zero.
+bool vanishes(int coefficient, const FlightCondition& settings);
 
 /// From its name. Throws InputError that names `where` when there is no such coefficient or patch, or when
 /// symmetry makes it zero.

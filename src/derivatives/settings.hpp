@@ -5,10 +5,18 @@
 #include <vector>
 
 #include "core/types.hpp"
+#include "core/words.hpp"
 
 namespace alphadot {
 
 enum class SensitivityMethod { gmres, march };
+
+namespace words {
+inline constexpr Word<SensitivityMethod> sensitivity[] = {{"gmres", SensitivityMethod::gmres},
+                                                          {"march", SensitivityMethod::march}};
+}
+template <>
+inline constexpr std::span<const Word<SensitivityMethod>> words_of<SensitivityMethod> = words::sensitivity;
 
 /// How the linear systems behind the stability derivatives are solved.
 struct DerivativeSettings {

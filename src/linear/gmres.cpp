@@ -60,7 +60,7 @@ void Gmres::solve_one(const LinearSystem& system) {
     if (space_.size() == before) break;  // the space holds all that the preconditioner can find
     space_.reduce({&search, 1});
   } while (search.norm > target && !space_.is_full());
-  space_.move(system.update, search.shares);
+  space_.move(system.update, search.coefficients);
 }
 
 void Gmres::solve(std::span<const LinearSystem> systems) {

@@ -6,6 +6,7 @@
 #include "euler/boundary.hpp"
 #include "euler/independent.hpp"
 #include "euler/state_change.hpp"
+#include "space/face_geometry.hpp"
 #include "space/wave_speed.hpp"
 
 namespace alphadot {
@@ -49,9 +50,8 @@ void add_time_term(Matrix& diagonal, const Primitive<Real>& w, Real scale, Real 
   const Subdomain& domain = discretization.domain();
   for (Index face = 0; face < static_cast<Index>(domain.faces.size()); ++face) {
     const auto [left, right] = domain.faces[face];
-    const Real area = norm(domain.face_normal[face]);
-    const Vec3 normal = (1 / area) * domain.face_normal[face];
-    const Real speed = conditions.face_speed(face, domain.face_center[face], normal);
+    const auto [area, normal, center] = interior_geometry(domain, static_cast<std::size_t>(face));
+    const Real speed = conditions.face_speed(face, center, normal);
     const auto flux = numerical_flux(discretization.flux(), independent<10, float>(flow[left], by_left),
                                      independent<10, float>(flow[right], by_right), normal, Number(speed));
     add_derivative(diagonal[left], flux, by_left, area);
@@ -69,14 +69,12 @@ void boundary_terms(const Discretization& discretization, const FlowField<Real>&
   const auto outside = constant<5>(conditions.free_stream);
   for (std::size_t i = 0; i < domain.boundary_faces.size(); ++i) {
     const auto& face = domain.boundary_faces[i];
-    const Real area = norm(domain.boundary_normal[i]);
-    const Vec3 normal = (1 / area) * domain.boundary_normal[i];
-    const Dual<5> speed = conditions.boundary_speed(i, domain.boundary_center[i], normal);
+    const auto [area, normal, center] = boundary_geometry(domain, i);
+    const Dual<5> speed = conditions.boundary_speed(i, center, normal);
     const auto inside = independent<5>(flow[face.cell]);
     const BoundaryKind kind = discretization.kind_of(face);
-    const auto flux = is_impermeable(kind)
-                          ? wall_flux(boundary_pressure(kind, inside, normal, speed, gamma), normal, speed)
-                          : far_field_flux(inside, outside, normal, speed, gamma);
+    const auto pressure = boundary_pressure(kind, inside, normal, speed, gamma);
+    const auto flux = boundary_flux(kind, inside, pressure, outside, normal, speed, gamma);
     add_derivative(diagonal[face.cell], flux, 0, area);
   }
 }

@@ -135,27 +135,27 @@ void KrylovBasis::reduce(std::span<System> systems) const {
   std::vector<Real> products;
   for (const System& system : systems) {
     const auto defect = numbers_in(std::span<const Primitive<Real>>(system.defect));
-    for (std::size_t j = system.shares.size(); j < directions_.size(); ++j)
+    for (std::size_t j = system.coefficients.size(); j < directions_.size(); ++j)
       products.push_back(-product<float>(directions_[j].image, defect));
     products.push_back(product<Real>(defect, defect));
   }
   sum_(products);
   auto next = products.begin();
   for (System& system : systems) {
-    const std::size_t met = system.shares.size();
+    const std::size_t met = system.coefficients.size();
     for (std::size_t j = met; j < directions_.size(); ++j) {
-      const Real share = *next++;
-      system.shares.push_back(share);
-      add_scaled(numbers_in(system.defect), share, directions_[j].image);
+      const Real coefficient = *next++;
+      system.coefficients.push_back(coefficient);
+      add_scaled(numbers_in(system.defect), coefficient, directions_[j].image);
       for (std::size_t i = 0; i < system.functionals.size(); ++i)
-        system.functionals[i] += share * directions_[j].functionals[i];
+        system.functionals[i] += coefficient * directions_[j].functionals[i];
     }
-    system.norm = std::sqrt(square_left(*next++, std::span(system.shares).subspan(met)));
+    system.norm = std::sqrt(square_left(*next++, std::span(system.coefficients).subspan(met)));
   }
 }
 
-void KrylovBasis::move(std::span<Primitive<Real>> solution, std::span<const Real> shares) const {
-  std::vector<Real> factors(shares.begin(), shares.end());  // R factors = shares
+void KrylovBasis::move(std::span<Primitive<Real>> solution, std::span<const Real> coefficients) const {
+  std::vector<Real> factors(coefficients.begin(), coefficients.end());  // R factors = coefficients
   for (std::size_t j = factors.size(); j-- > 0;) {
     const auto& column = directions_[j].column;
     factors[j] /= column.back();

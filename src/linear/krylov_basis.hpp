@@ -28,9 +28,9 @@ class KrylovBasis {
   /// One system on its way.
   struct System {
     std::span<Primitive<Real>> defect;
-    std::vector<Real> functionals;  ///< of the solution
-    std::vector<Real> shares;       ///< of the orthonormal images in the defect so far
-    Real norm;                      ///< of the defect
+    std::vector<Real> functionals;   ///< of the solution
+    std::vector<Real> coefficients;  ///< of the orthonormal images in the defect so far
+    Real norm;                       ///< of the defect
   };
 
   /// For vectors of `cells` on this rank; wants no more than `capacity` directions.
@@ -48,8 +48,8 @@ class KrylovBasis {
   /// along. The solution follows by move(). Collective: one all-reduce.
   void reduce(std::span<System> systems) const;
 
-  /// Adds to the solution what belongs to the shares of a system.
-  void move(std::span<Primitive<Real>> solution, std::span<const Real> shares) const;
+  /// Adds to the solution what belongs to the coefficients of a system.
+  void move(std::span<Primitive<Real>> solution, std::span<const Real> coefficients) const;
 
   std::size_t bytes() const { return directions_.size() * cells_ * 2 * sizeof(Five<float>); }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "euler/independent.hpp"
+#include "space/face_geometry.hpp"
 
 namespace alphadot {
 
@@ -50,9 +51,7 @@ Five<Real> by_variable(const Conserved<Dual<N>>& flux, int variable) {
   const Subdomain& domain = discretization_.domain();
   for (std::size_t face = 0; face < faces_.size(); ++face) {
     const auto [left, right] = domain.faces[face];
-    const Real area = norm(domain.face_normal[face]);
-    const Vec3 normal = (1 / area) * domain.face_normal[face];
-    const Vec3 center = domain.face_center[face];
+    const auto [area, normal, center] = interior_geometry(domain, face);
     Primitive<Real> wl = flow_[left], wr = flow_[right];
     Face& out = faces_[face];
     out.share = 0;
@@ -86,9 +85,7 @@ void Linearisation::differentiate_boundary(const Reconstruction<Real>& reconstru
   const auto outside = free_stream(wind, gamma);
   for (std::size_t i = 0; i < boundary_faces_.size(); ++i) {
     const auto& face = domain.boundary_faces[i];
-    const Real area = norm(domain.boundary_normal[i]);
-    const Vec3 normal = (1 / area) * domain.boundary_normal[i];
-    const Vec3 center = domain.boundary_center[i];
+    const auto [area, normal, center] = boundary_geometry(domain, i);
     Primitive<Real> w = flow_[face.cell];
     BoundaryFace& out = boundary_faces_[i];
     out.share = 0;
@@ -102,8 +99,7 @@ void Linearisation::differentiate_boundary(const Reconstruction<Real>& reconstru
     speed.d[speed_variable] = 1;
     const BoundaryKind kind = discretization_.kind_of(face);
     const Number pressure = boundary_pressure(kind, inside, normal, speed, gamma);
-    const auto flux = area * (is_impermeable(kind) ? wall_flux(pressure, normal, speed)
-                                                   : far_field_flux(inside, outside, normal, speed, gamma));
+    const auto flux = area * boundary_flux(kind, inside, pressure, outside, normal, speed, gamma);
     out.inside = by_state(flux);
     out.speed = by_variable(flux, speed_variable);
     for (int axis = 0; axis < 3; ++axis)

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/dual.hpp"
+#include "space/face_geometry.hpp"
 #include "space/wave_speed.hpp"
 
 namespace alphadot {
@@ -22,9 +23,8 @@ void LuSgs::linearise(const FlowField<Real>& flow, const Conditions<Real>& condi
   std::ranges::fill(diagonal_, 0);
   for (std::size_t face = 0; face < domain.faces.size(); ++face) {
     const auto [left, right] = domain.faces[face];
-    const Real area = norm(domain.face_normal[face]);
-    const Vec3 normal = (1 / area) * domain.face_normal[face];
-    const Real speed = conditions.face_speed(static_cast<Index>(face), domain.face_center[face], normal);
+    const auto [area, normal, center] = interior_geometry(domain, face);
+    const Real speed = conditions.face_speed(static_cast<Index>(face), center, normal);
     face_wave_[face] = 0.5 * area *
                        std::max(spectral_radius(flow[left], normal, speed, gamma),
                                 spectral_radius(flow[right], normal, speed, gamma));
@@ -33,9 +33,8 @@ void LuSgs::linearise(const FlowField<Real>& flow, const Conditions<Real>& condi
   }
   for (std::size_t i = 0; i < domain.boundary_faces.size(); ++i) {
     const Index cell = domain.boundary_faces[i].cell;
-    const Real area = norm(domain.boundary_normal[i]);
-    const Vec3 normal = (1 / area) * domain.boundary_normal[i];
-    const Real speed = conditions.boundary_speed(i, domain.boundary_center[i], normal);
+    const auto [area, normal, center] = boundary_geometry(domain, i);
+    const Real speed = conditions.boundary_speed(i, center, normal);
     diagonal_[cell] += 0.5 * area * spectral_radius(flow[cell], normal, speed, gamma);
   }
   for (Index cell = 0; cell < domain.owned_cells; ++cell)

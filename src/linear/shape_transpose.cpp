@@ -7,6 +7,8 @@
 
 #include "euler/boundary.hpp"
 #include "linear/tangent_transpose.hpp"
+#include "linear/transposed_product.hpp"
+#include "space/face_geometry.hpp"
 #include "space/limiter.hpp"
 
 namespace alphadot {
@@ -53,19 +55,6 @@ class PointSensitivity {
   std::vector<Vec3> points_;
 };
 
-Real product(const Five<Real>& a, const Five<Real>& b) {
-  Real sum = 0;
-  for (int i = 0; i < 5; ++i) sum += a[i] * b[i];
-  return sum;
-}
-
-Five<Real> transposed_product(const Linearisation::Matrix& a, const Five<Real>& x) {
-  Five<Real> out;
-  for (int column = 0; column < 5; ++column)
-    for (int row = 0; row < 5; ++row) out[column] += a[static_cast<std::size_t>(5 * column + row)] * x[row];
-  return out;
-}
-
 /// Gradient of a smooth function of an area vector, by central differences.
 template <class Function>
 Vec3 by_area(const Vec3& area, Function&& function) {
@@ -101,14 +90,7 @@ class ShapeTranspose {
         second_order_(discretization_.space().order > 1),
         reconstruction_(discretization_, linearisation.communicator()),
         points_(domain_) {
-    flow.start_exchange();
-    if (second_order_) {
-      reconstruction_.update(flow);
-      reconstruction_.start_exchange();
-      reconstruction_.finish_exchange();
-    } else {
-      flow.finish_exchange();
-    }
+    reconstruction_.update(flow, discretization_.space().order);
   }
 
   std::vector<Vec3> apply() {
@@ -132,8 +114,8 @@ class ShapeTranspose {
     return by_offset;
   }
   /// Of the speed of a face along its unit normal, by its centre.
-  Vec3 speed_by_center(const Vec3& area) const {
-    return cross((1 / norm(area)) * area, conditions_.grid.rotation);
+  Vec3 speed_by_center(const FaceGeometry& face) const {
+    return cross(face.normal, conditions_.grid.rotation);
   }
 
   void interior_face(Index face) {
@@ -144,12 +126,12 @@ class ShapeTranspose {
     const Vec3 center = domain_.face_center[face], area = domain_.face_normal[face];
     const auto l = at_face(left, center, derivatives.share), r = at_face(right, center, derivatives.share);
     const Vec3 flux_by_area = by_area(area, [&](const Vec3& s) {
-      const Real size = norm(s);
-      const Vec3 normal = (1 / size) * s;
+      const auto [size, normal, at] = face_geometry(s, center);
       return size * product(across, numerical_flux(discretization_.flux(), l, r, normal,
-                                                   conditions_.grid.normal_speed(center, normal)));
+                                                   conditions_.grid.normal_speed(at, normal)));
     });
-    Vec3 by_center = product(across, derivatives.speed) * speed_by_center(area);
+    Vec3 by_center = product(across, derivatives.speed) *
+                     speed_by_center(interior_geometry(domain_, static_cast<std::size_t>(face)));
     if (second_order_) {
       by_center += extrapolation(left, transposed_product(derivatives.left, across), derivatives.share);
       by_center += extrapolation(right, transposed_product(derivatives.right, across), derivatives.share);
@@ -174,19 +156,16 @@ class ShapeTranspose {
       return dot(weight.force, s) + dot(weight.moment, cross(center - moment_center_, s));
     };
     const Vec3 all_by_area = by_area(area, [&](const Vec3& s) {
-      const Real size = norm(s);
-      const Vec3 normal = (1 / size) * s;
-      const Real speed = conditions_.grid.normal_speed(center, normal), pressure = pressure_at(normal);
-      const auto flux = is_impermeable(kind)
-                            ? wall_flux(pressure, normal, speed)
-                            : far_field_flux(inside, conditions_.free_stream, normal, speed, gamma);
+      const auto [size, normal, at] = face_geometry(s, center);
+      const Real speed = conditions_.grid.normal_speed(at, normal), pressure = pressure_at(normal);
+      const auto flux = boundary_flux(kind, inside, pressure, conditions_.free_stream, normal, speed, gamma);
       return size * product(adjoint, flux) + (pressure - 1 / gamma) * lever(s);
     });
-    const Real excess = pressure_at((1 / norm(area)) * area) - 1 / gamma;
+    const Real excess = pressure_at(boundary_geometry(domain_, i).normal) - 1 / gamma;
     const Real by_pressure = lever(area);
     Vec3 by_center = excess * cross(area, weight.moment) +
                      (product(adjoint, derivatives.speed) + by_pressure * derivatives.pressure_by_speed) *
-                         speed_by_center(area);
+                         speed_by_center(boundary_geometry(domain_, i));
     if (second_order_)
       by_center += extrapolation(
           face.cell, transposed_product(derivatives.inside, adjoint) + by_pressure * derivatives.pressure,

@@ -4,6 +4,7 @@
 
 #include "core/dual.hpp"
 #include "core/prefetch.hpp"
+#include "space/face_geometry.hpp"
 
 namespace alphadot {
 
@@ -23,25 +24,17 @@ template <int N>
 void Tangent<N>::apply(const Fields& fields, const std::array<ConditionsChange, N>& changes,
                        const Images& images) {
   const Subdomain& domain = discretization_.domain();
-  const bool second_order = discretization_.space().order > 1;
   for (Index cell = 0; cell < domain.owned_cells; ++cell)
     for (int i = 0; i < 5; ++i)
       for (int k = 0; k < N; ++k)
         flow_[cell][i].d[k] = fields[static_cast<std::size_t>(k)][static_cast<std::size_t>(cell)][i];
   std::ranges::fill(values_, Conserved<Changes<N>>{});
 
-  flow_.start_exchange();
-  if (second_order) {
-    reconstruction_.update(flow_);
-    reconstruction_.start_exchange();
-  }
-  interior_faces(0, domain.cut_face_begin);
-  boundary_faces();
-  turn_axes(changes);
-  if (second_order)
-    reconstruction_.finish_exchange();
-  else
-    flow_.finish_exchange();
+  reconstruction_.update(flow_, discretization_.space().order, [&] {
+    interior_faces(0, domain.cut_face_begin);
+    boundary_faces();
+    turn_axes(changes);
+  });
   interior_faces(domain.cut_face_begin, static_cast<Index>(domain.faces.size()));
   const auto is_zero = [](const ConditionsChange& c) {
     return dot(c.wind, c.wind) + dot(c.grid_velocity, c.grid_velocity) + dot(c.rotation, c.rotation) == 0;
@@ -133,20 +126,19 @@ typename Tangent<N>::Forcing Tangent<N>::forcing_of(const std::array<ConditionsC
 template <int N>
 void Tangent<N>::force_faces(const Forcing& forcing) {
   const Subdomain& domain = discretization_.domain();
-  const auto speed_of = [&](const Vec3& area, const Vec3& center) {
-    return dot((1 / norm(area)) * area, forcing.grid.at(center));
+  const auto speed_of = [&](const FaceGeometry& face) {
+    return dot(face.normal, forcing.grid.at(face.center));
   };
   for (std::size_t face = 0; face < domain.faces.size(); ++face) {
     const auto [left, right] = domain.faces[face];
     Conserved<Changes<N>> flux{};
-    add_product(flux, linearisation_.faces()[face].speed,
-                speed_of(domain.face_normal[face], domain.face_center[face]));
+    add_product(flux, linearisation_.faces()[face].speed, speed_of(interior_geometry(domain, face)));
     values_[static_cast<std::size_t>(left)] += flux;
     if (right < domain.owned_cells) values_[static_cast<std::size_t>(right)] -= flux;
   }
   for (std::size_t i = 0; i < domain.boundary_faces.size(); ++i) {
     const auto& derivatives = linearisation_.boundary_faces()[i];
-    const auto speed = speed_of(domain.boundary_normal[i], domain.boundary_center[i]);
+    const auto speed = speed_of(boundary_geometry(domain, i));
     auto& value = values_[static_cast<std::size_t>(domain.boundary_faces[i].cell)];
     add_product(value, derivatives.speed, speed);
     for (int axis = 0; axis < 3; ++axis)

@@ -4,27 +4,13 @@
 
 #include "core/prefetch.hpp"
 #include "euler/independent.hpp"
+#include "linear/transposed_product.hpp"
+#include "space/face_geometry.hpp"
 #include "space/forces_transpose.hpp"
 
 namespace alphadot {
 
 namespace {
-
-/// A^T x, A column by column.
-template <int N>
-Five<Changes<N>> transposed_product(const Linearisation::Matrix& a, const Five<Changes<N>>& x) {
-  Five<Changes<N>> out{};
-  for (int column = 0; column < 5; ++column)
-    for (int row = 0; row < 5; ++row) out[column] += a[static_cast<std::size_t>(5 * column + row)] * x[row];
-  return out;
-}
-
-template <int N>
-Changes<N> product(const Five<Real>& a, const Five<Changes<N>>& x) {
-  Changes<N> out;
-  for (int row = 0; row < 5; ++row) out += a[row] * x[row];
-  return out;
-}
 
 /// The way there: state on a face = state + offset . gradient.
 template <int N>
@@ -58,12 +44,14 @@ void TangentTranspose<N>::apply(const Adjoints& adjoints, const Weights& weights
   if (second_order) {  // what other ranks wait for first
     reconstruction_.fit_cells(domain.interior_cells, domain.owned_cells, states_);
     reconstruction_.scatter_points(domain.interior_points, domain.owned_points, states_);
-    states_halo_.start();
-    reconstruction_.fit_cells(0, domain.interior_cells, states_);
-    reconstruction_.scatter_points(0, domain.interior_points, states_);
+    states_halo_.exchange([&] {
+      reconstruction_.fit_cells(0, domain.interior_cells, states_);
+      reconstruction_.scatter_points(0, domain.interior_points, states_);
+      turn_axes();
+    });
+  } else {
+    turn_axes();
   }
-  turn_axes();
-  if (second_order) states_halo_.wait();
 
   for (Index cell = 0; cell < domain.owned_cells; ++cell)
     for (int i = 0; i < 5; ++i)
@@ -86,12 +74,12 @@ void TangentTranspose<N>::faces(const Adjoints& adjoints, const Weights& weights
     for (int i = 0; i < 5; ++i)
       for (int k = 0; k < N; ++k)
         adjoints_[cell][i].d[k] = adjoints[static_cast<std::size_t>(k)][static_cast<std::size_t>(cell)][i];
-  adjoints_.start_exchange();
-  std::ranges::fill(states_, Primitive<Changes<N>>{});
-  reconstruction_.clear();
-  boundary_faces(weights);
-  cells(0, domain.interior_cells);
-  adjoints_.finish_exchange();
+  adjoints_.exchange([&] {
+    std::ranges::fill(states_, Primitive<Changes<N>>{});
+    reconstruction_.clear();
+    boundary_faces(weights);
+    cells(0, domain.interior_cells);
+  });
   cells(domain.interior_cells, domain.owned_cells);
 }
 
@@ -200,26 +188,25 @@ std::array<ConditionsChange, N> TangentTranspose<N>::conditions(const Weights& w
   const Subdomain& domain = discretization_.domain();
   const Conditions<Real>& about = linearisation_.conditions();
   Vec3Of<Changes<N>> wind, velocity, rotation;
-  const auto add_speed = [&](const Changes<N>& speed, const Vec3& area, const Vec3& center) {
-    const Vec3 normal = (1 / norm(area)) * area, arm = cross(center - about.grid.axis, normal);
+  const auto add_speed = [&](const Changes<N>& speed, const FaceGeometry& face) {
+    const Vec3 by_rotation = cross(face.center - about.grid.axis, face.normal);
     for (int axis = 0; axis < 3; ++axis) {
-      velocity[axis] += normal[axis] * speed;
-      rotation[axis] += arm[axis] * speed;
+      velocity[axis] += face.normal[axis] * speed;
+      rotation[axis] += by_rotation[axis] * speed;
     }
   };
   for (std::size_t face = 0; face < domain.faces.size(); ++face) {
     const auto [left, right] = domain.faces[face];
     auto flux = adjoints_[left];  // of a face between ranks each counts its own cell
     if (right < domain.owned_cells) flux -= adjoints_[right];
-    add_speed(product(linearisation_.faces()[face].speed, flux), domain.face_normal[face],
-              domain.face_center[face]);
+    add_speed(product(linearisation_.faces()[face].speed, flux), interior_geometry(domain, face));
   }
   for (std::size_t i = 0; i < domain.boundary_faces.size(); ++i) {
     const auto& derivatives = linearisation_.boundary_faces()[i];
     const auto& adjoint = adjoints_[domain.boundary_faces[i].cell];
     add_speed(
         product(derivatives.speed, adjoint) + derivatives.pressure_by_speed * pressure_weights(i, weights),
-        domain.boundary_normal[i], domain.boundary_center[i]);
+        boundary_geometry(domain, i));
     for (int axis = 0; axis < 3; ++axis)
       wind[axis] += product(derivatives.wind[static_cast<std::size_t>(axis)], adjoint);
   }

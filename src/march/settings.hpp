@@ -2,10 +2,18 @@
 #pragma once
 
 #include "core/types.hpp"
+#include "core/words.hpp"
 
 namespace alphadot {
 
 enum class SchemeKind { lu_sgs, block_lu_sgs };
+
+namespace words {
+inline constexpr Word<SchemeKind> scheme[] = {{"lu_sgs", SchemeKind::lu_sgs},
+                                              {"block_lu_sgs", SchemeKind::block_lu_sgs}};
+}
+template <>
+inline constexpr std::span<const Word<SchemeKind>> words_of<SchemeKind> = words::scheme;
 
 struct SteadySettings {
   SchemeKind scheme = SchemeKind::block_lu_sgs;

@@ -18,11 +18,25 @@ Vec3 on_turned_axes(const Vec3& v, const Vec3& angle) {
   return c * v - s * cross(axis, v) + (1 - c) * dot(axis, v) * axis;
 }
 
+Vec3 angular_velocity(const Vec3& angle, const Vec3& rate) {
+  constexpr Real small = 0.01;  // below, the series to its third term
+  const Real turn2 = dot(angle, angle), turn = std::sqrt(turn2);
+  const bool is_small = turn < small;
+  const Real half = std::sin(turn / 2);
+  const Real first = is_small ? 0.5 - turn2 / 24 + turn2 * turn2 / 720 : 2 * half * half / turn2;
+  const Real second =
+      is_small ? 1.0 / 6 - turn2 / 120 + turn2 * turn2 / 5040 : (turn - std::sin(turn)) / (turn * turn2);
+  const Vec3 across = cross(angle, rate);
+  return rate + first * across + second * cross(angle, across);
+}
+
 namespace {
 
 void turn(Attitude& attitude, int axis, Real angle, Real rate) {
+  Vec3 rates;
+  rates[axis] = rate;
   attitude.angle[axis] = angle;
-  attitude.rotation[axis] = rate;
+  attitude.rotation = angular_velocity(attitude.angle, rates);
 }
 
 }  // namespace

@@ -14,7 +14,7 @@ namespace alphadot {
 struct Attitude {
   Real alpha = 0, beta = 0;  ///< incidence of the relative wind at the axis point, in body axes
   Vec3 angle;                ///< rotation vector from rest: +y nose up, +z nose to port, +x starboard wing up
-  Vec3 rotation;             ///< its rate
+  Vec3 rotation;             ///< angular velocity, see angular_velocity()
   Vec3 velocity;             ///< of the axis point
 };
 
@@ -87,5 +87,10 @@ Vec3 wind_velocity(Real speed, Real alpha, Real beta);
 /// The vector `v` along axes that have been turned by the rotation vector `angle` (Rodrigues): components on
 /// body axes.
 Vec3 on_turned_axes(const Vec3& v, const Vec3& angle);
+
+/// Angular velocity, along the axes at rest, of axes turned by the rotation vector `angle` (rad) that changes
+/// at `rate` (rad per unit of time): the rate itself only while that turns about the same axis (inverse of
+/// Bortz's equation, 1971).
+Vec3 angular_velocity(const Vec3& angle, const Vec3& rate);
 
 }  // namespace alphadot

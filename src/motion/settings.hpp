@@ -5,12 +5,37 @@
 
 #include "core/types.hpp"
 #include "core/vec3.hpp"
+#include "core/words.hpp"
 
 namespace alphadot {
 
 enum class MotionKind { none, plunge, sway, pitch, yaw, roll, flap, step_alpha, ramp_alpha, step_q, table };
 
+namespace words {
+inline constexpr Word<MotionKind> motion[] = {{"none", MotionKind::none},
+                                              {"plunge", MotionKind::plunge},
+                                              {"sway", MotionKind::sway},
+                                              {"pitch", MotionKind::pitch},
+                                              {"yaw", MotionKind::yaw},
+                                              {"roll", MotionKind::roll},
+                                              {"flap", MotionKind::flap},
+                                              {"step_alpha", MotionKind::step_alpha},
+                                              {"ramp_alpha", MotionKind::ramp_alpha},
+                                              {"step_q", MotionKind::step_q},
+                                              {"table", MotionKind::table}};
+}
+template <>
+inline constexpr std::span<const Word<MotionKind>> words_of<MotionKind> = words::motion;
+
 enum class TreatmentKind { field_velocity, rigid_grid, deforming_grid };
+
+namespace words {
+inline constexpr Word<TreatmentKind> treatment[] = {{"field_velocity", TreatmentKind::field_velocity},
+                                                    {"rigid_grid", TreatmentKind::rigid_grid},
+                                                    {"deforming_grid", TreatmentKind::deforming_grid}};
+}
+template <>
+inline constexpr std::span<const Word<TreatmentKind>> words_of<TreatmentKind> = words::treatment;
 
 struct MotionSettings {
   MotionKind kind = MotionKind::none;

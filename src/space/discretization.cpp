@@ -81,12 +81,8 @@ void Discretization::update_geometry() {
     if (is_impermeable(kind_of(face))) ++impermeable_faces[face.cell];
 
   inverse_fit_.assign(cells, {});
-  flat_cells_ = 0;
   for (Index cell = 0; cell < domain_.owned_cells; ++cell) {
-    if (impermeable_faces[cell] >= 2) {
-      ++flat_cells_;
-      continue;
-    }
+    if (impermeable_faces[cell] >= 2) continue;
     Symmetric3 normal_matrix{};
     for (const Index point : domain_.cell_points[cell])
       for (const Index other : domain_.point_cells[point])

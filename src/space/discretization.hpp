@@ -58,10 +58,9 @@ class Discretization {
   }
   /// Inverse of the normal matrix of the least-squares fit; zero where the cell stays first order.
   const Symmetric3& inverse_fit(Index cell) const { return inverse_fit_[static_cast<std::size_t>(cell)]; }
+  /// Whether the gradient of a cell is held at zero: two or more faces on walls or symmetry planes leave too
+  /// little to fit.
   bool is_flat(Index cell) const { return inverse_fit(cell).xx == 0; }
-  /// Cells whose gradient is held at zero: two or more faces on walls or symmetry planes leave too little to
-  /// fit.
-  Index flat_cells() const { return flat_cells_; }
 
   std::size_t bytes() const;
 
@@ -72,7 +71,6 @@ class Discretization {
   FluxModel flux_;
   std::vector<PointMoments> point_moments_;  // [owned_points]
   std::vector<Symmetric3> inverse_fit_;      // [owned_cells]
-  Index flat_cells_ = 0;
 };
 
 /// True for walls and planes that no flow crosses.
@@ -87,6 +85,15 @@ T boundary_pressure(BoundaryKind kind, const Primitive<T>& inside, const Vec3& n
                     Real gamma) {
   const bool is_wall = kind == BoundaryKind::wall || kind == BoundaryKind::sting;
   return is_wall ? wall_pressure(inside, normal, grid_speed, gamma) : inside[4];
+}
+
+/// Flux out of a boundary face per area: `pressure` is boundary_pressure(), `outside` the free stream.
+template <class T, class Outside>
+Conserved<T> boundary_flux(BoundaryKind kind, const Primitive<T>& inside, const T& pressure,
+                           const Primitive<Outside>& outside, const Vec3& normal, const T& grid_speed,
+                           Real gamma) {
+  return is_impermeable(kind) ? wall_flux(pressure, normal, grid_speed)
+                              : far_field_flux(inside, outside, normal, grid_speed, gamma);
 }
 
 }  // namespace alphadot

@@ -27,7 +27,13 @@ class CellField {
   void start_exchange() { halo_.start(); }
   void finish_exchange() { halo_.wait(); }
   void exchange() {
+    exchange([] {});
+  }
+  /// The same while `meanwhile` does what needs no ghost.
+  template <class Work>
+  void exchange(Work&& meanwhile) {
     start_exchange();
+    meanwhile();
     finish_exchange();
   }
   const HaloExchange<V>& halo() const { return halo_; }

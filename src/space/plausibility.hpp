@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/error.hpp"
-#include "io/case.hpp"
+#include "motion/flight_condition.hpp"
 #include "space/configuration.hpp"
 
 namespace alphadot {

@@ -16,18 +16,9 @@ Reconstruction<T>::Reconstruction(const Discretization& discretization, const Co
                    : 0) {}
 
 template <class T>
-void Reconstruction<T>::update(FlowField<T>& flow) {
-  const Subdomain& domain = discretization_.domain();
-  if (!frozen_) positivity_cells_ = 0;
-  gather_points<T>(discretization_, flow, 0, domain.interior_points, points_);
-  fit_cells(flow, 0, domain.interior_cells);
-  flow.finish_exchange();
-  gather_points<T>(discretization_, flow, domain.interior_points, domain.owned_points, points_);
-  fit_cells(flow, domain.interior_cells, domain.owned_cells);
-}
-
-template <class T>
-void Reconstruction<T>::fit_cells(const FlowField<T>& flow, Index begin, Index end) {
+void Reconstruction<T>::fit(const FlowField<T>& flow, Index point_begin, Index point_end, Index begin,
+                            Index end) {
+  gather_points<T>(discretization_, flow, point_begin, point_end, points_);
   switch (discretization_.space().limiter) {
     case LimiterKind::venkatakrishnan:
       return fit_limited<LimiterKind::venkatakrishnan>(flow, begin, end);

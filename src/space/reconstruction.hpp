@@ -28,10 +28,22 @@ class Reconstruction {
  public:
   Reconstruction(const Discretization& discretization, const Communicator& comm);
 
-  /// Fills the gradients of owned cells from a flow whose exchange has been started; finishes it while the
-  /// cells that need no ghost are worked on. Two passes: moments and extrema of the points, then gradient and
-  /// limiter of the cells.
-  void update(FlowField<T>& flow);
+  /// Brings the ghosts of `flow` up to date, then, unless `order` is 1, the limited gradients of owned cells
+  /// and face ghosts: the one order in which work and messages overlap. Cells that need no ghost go first,
+  /// the caller's work on the interior, `meanwhile`, comes while the last exchange is under way: it may use
+  /// gradients of owned cells.
+  template <class Work>
+  void update(FlowField<T>& flow, int order, Work&& meanwhile) {
+    if (order == 1) return flow.exchange(meanwhile);
+    if (!frozen_) positivity_cells_ = 0;
+    const Subdomain& domain = discretization_.domain();
+    flow.exchange([&] { fit(flow, 0, domain.interior_points, 0, domain.interior_cells); });
+    fit(flow, domain.interior_points, domain.owned_points, domain.interior_cells, domain.owned_cells);
+    gradients_.exchange(meanwhile);
+  }
+  void update(FlowField<T>& flow, int order) {
+    update(flow, order, [] {});
+  }
   /// From now on the limiter's factors stay what they were in the latest update (or are free again).
   void freeze_limiter(bool frozen) { frozen_ = frozen; }
   bool limiter_is_frozen() const { return frozen_; }
@@ -39,9 +51,6 @@ class Reconstruction {
   std::span<Five<float>> limiter_factors() { return factors_; }
   /// Owned cells whose limiter's factors also keep density and pressure positive, when they last changed.
   Index positivity_cells() const { return positivity_cells_; }
-  /// Brings the gradients of face ghosts up to date.
-  void start_exchange() { gradients_.start_exchange(); }
-  void finish_exchange() { gradients_.finish_exchange(); }
 
   /// Of every owned cell, at the flow of the latest update (T = Real); none without a limiter. About what a
   /// few updates cost.
@@ -55,7 +64,8 @@ class Reconstruction {
   const HaloExchange<Gradient<T>>& halo() const { return gradients_.halo(); }
 
  private:
-  void fit_cells(const FlowField<T>& flow, Index begin, Index end);
+  /// Two passes: moments and extrema of some points, then gradient and limiter of some cells.
+  void fit(const FlowField<T>& flow, Index point_begin, Index point_end, Index begin, Index end);
   template <LimiterKind limiter>
   void fit_limited(const FlowField<T>& flow, Index begin, Index end);
 

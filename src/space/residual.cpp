@@ -6,6 +6,7 @@
 
 #include "core/prefetch.hpp"
 #include "euler/boundary.hpp"
+#include "space/face_geometry.hpp"
 
 namespace alphadot {
 
@@ -22,18 +23,11 @@ void Residual<T>::evaluate(FlowField<T>& flow, const Conditions<T>& conditions, 
   const auto cut_end = static_cast<Index>(domain.faces.size());
   positivity_faces_ = 0;
   std::fill(residual.begin(), residual.end(), Conserved<T>{});
-  flow.start_exchange();
-  if (order > 1) {
-    reconstruction_.update(flow);
-    reconstruction_.start_exchange();
-  }
-  interior_faces(flow, conditions, order, 0, domain.cut_face_begin, residual);
-  boundary_faces(flow, conditions, order, residual);
-  rotating_axes(flow, conditions, residual);
-  if (order > 1)
-    reconstruction_.finish_exchange();
-  else
-    flow.finish_exchange();
+  reconstruction_.update(flow, order, [&] {
+    interior_faces(flow, conditions, order, 0, domain.cut_face_begin, residual);
+    boundary_faces(flow, conditions, order, residual);
+    rotating_axes(flow, conditions, residual);
+  });
   interior_faces(flow, conditions, order, domain.cut_face_begin, cut_end, residual);
 }
 
@@ -173,16 +167,13 @@ void Residual<T>::boundary_faces(const FlowField<T>& flow, const Conditions<T>& 
       prefetch(residual[cell]);
     }
     const auto& face = domain.boundary_faces[i];
-    const Real area = norm(domain.boundary_normal[i]);
-    const Vec3 normal = (1 / area) * domain.boundary_normal[i];
-    const Vec3 center = domain.boundary_center[i];
+    const auto [area, normal, center] = boundary_geometry(domain, i);
     const T speed = conditions.boundary_speed(i, center, normal);
     const auto inside = face_state(flow, face.cell, center, order);
     const BoundaryKind kind = discretization_.kind_of(face);
     boundary_pressures_[i] = boundary_pressure(kind, inside, normal, speed, gamma);
-    residual[face.cell] +=
-        area * (is_impermeable(kind) ? wall_flux(boundary_pressures_[i], normal, speed)
-                                     : far_field_flux(inside, conditions.free_stream, normal, speed, gamma));
+    residual[face.cell] += area * boundary_flux(kind, inside, boundary_pressures_[i], conditions.free_stream,
+                                                normal, speed, gamma);
   }
 }
 

@@ -2,13 +2,30 @@
 #pragma once
 
 #include "core/types.hpp"
+#include "core/words.hpp"
 #include "euler/kinds.hpp"
 
 namespace alphadot {
 
 enum class GradientKind { least_squares, green_gauss };
 
+namespace words {
+inline constexpr Word<GradientKind> gradient[] = {{"least_squares", GradientKind::least_squares},
+                                                  {"green_gauss", GradientKind::green_gauss}};
+}
+template <>
+inline constexpr std::span<const Word<GradientKind>> words_of<GradientKind> = words::gradient;
+
 enum class LimiterKind { venkatakrishnan, mlp_u2, barth_jespersen, none };
+
+namespace words {
+inline constexpr Word<LimiterKind> limiter[] = {{"venkatakrishnan", LimiterKind::venkatakrishnan},
+                                                {"mlp_u2", LimiterKind::mlp_u2},
+                                                {"barth_jespersen", LimiterKind::barth_jespersen},
+                                                {"none", LimiterKind::none}};
+}
+template <>
+inline constexpr std::span<const Word<LimiterKind>> words_of<LimiterKind> = words::limiter;
 
 struct SpaceSettings {
   FluxKind flux = FluxKind::roe;

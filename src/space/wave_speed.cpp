@@ -1,5 +1,7 @@
 #include "space/wave_speed.hpp"
 
+#include "space/face_geometry.hpp"
+
 namespace alphadot {
 
 std::vector<Real> wave_speeds(const Discretization& discretization, const FlowField<Real>& flow,
@@ -9,18 +11,16 @@ std::vector<Real> wave_speeds(const Discretization& discretization, const FlowFi
   std::vector<Real> out(static_cast<std::size_t>(domain.owned_cells), 0);
   for (std::size_t face = 0; face < domain.faces.size(); ++face) {
     const auto [left, right] = domain.faces[face];
-    const Real area = norm(domain.face_normal[face]);
-    const Vec3 normal = (1 / area) * domain.face_normal[face];
-    const Real speed = conditions.face_speed(static_cast<Index>(face), domain.face_center[face], normal);
+    const auto [area, normal, center] = interior_geometry(domain, face);
+    const Real speed = conditions.face_speed(static_cast<Index>(face), center, normal);
     const Real wave = area * spectral_radius(Real{0.5} * (flow[left] + flow[right]), normal, speed, gamma);
     out[static_cast<std::size_t>(left)] += wave;
     if (right < domain.owned_cells) out[static_cast<std::size_t>(right)] += wave;
   }
   for (std::size_t i = 0; i < domain.boundary_faces.size(); ++i) {
     const Index cell = domain.boundary_faces[i].cell;
-    const Real area = norm(domain.boundary_normal[i]);
-    const Vec3 normal = (1 / area) * domain.boundary_normal[i];
-    const Real speed = conditions.boundary_speed(i, domain.boundary_center[i], normal);
+    const auto [area, normal, center] = boundary_geometry(domain, i);
+    const Real speed = conditions.boundary_speed(i, center, normal);
     out[static_cast<std::size_t>(cell)] += area * spectral_radius(flow[cell], normal, speed, gamma);
   }
   return out;

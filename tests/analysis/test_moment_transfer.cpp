@@ -165,10 +165,10 @@ EstimatedDerivatives estimated(unsigned seed) {
   EstimatedDerivatives out;
   out.derivatives = Elements(seed).derivatives({0, 0, 0});
   for (const char* source : {"linear", "mesh"}) {
-    DerivativeSetOf<Real> share;
+    DerivativeSetOf<Real> half_width;
     for (const auto& [variable, column] : out.derivatives)
-      for (int i = 0; i < column.size(); ++i) share[variable][i] = any(random);
-    out.add(source, std::move(share));
+      for (int i = 0; i < column.size(); ++i) half_width[variable][i] = any(random);
+    out.add(source, std::move(half_width));
   }
   return out;
 }
@@ -181,16 +181,16 @@ TEST(MomentTransfer, PartsOfTheUncertainty) {
   const auto moved = moment_transfer(about_old, Vec3{x, 0.2, 0});
   ASSERT_EQ(moved.parts.size(), 2);
   for (std::size_t part = 0; part < 2; ++part) {
-    const auto& share = about_old.parts[part].share;
+    const auto& half_width = about_old.parts[part].half_width;
     EXPECT_EQ(moved.parts[part].source, about_old.parts[part].source);
-    const Real expected = share.at(Variable::q).Cm + 1.5 * share.at(Variable::q).CN +
-                          3 * (share.at(Variable::alpha).Cm + 1.5 * share.at(Variable::alpha).CN);
-    EXPECT_NEAR(moved.parts[part].share.at(Variable::q).Cm, expected, 1e-14);
-    EXPECT_FALSE(moved.parts[part].share.contains(Variable::r)) << "a surge";
+    const Real expected = half_width.at(Variable::q).Cm + 1.5 * half_width.at(Variable::q).CN +
+                          3 * (half_width.at(Variable::alpha).Cm + 1.5 * half_width.at(Variable::alpha).CN);
+    EXPECT_NEAR(moved.parts[part].half_width.at(Variable::q).Cm, expected, 1e-14);
+    EXPECT_FALSE(moved.parts[part].half_width.contains(Variable::r)) << "a surge";
   }
   for (const auto& [variable, column] : moved.derivatives)
     for (int i = 0; i < column.size(); ++i)
-      EXPECT_NEAR(moved.parts[0].share.at(variable)[i] + moved.parts[1].share.at(variable)[i],
+      EXPECT_NEAR(moved.parts[0].half_width.at(variable)[i] + moved.parts[1].half_width.at(variable)[i],
                   column[i].uncertainty, 1e-13);
 }
 

@@ -139,7 +139,7 @@ class CoarserMeshes(unittest.TestCase):
         (self.folder / "longer.msh").write_text(gmsh_text(longer, cells, patches))
         for meshes, words in (
             ('["longer.msh"]', "derivatives.coarser_meshes, longer.msh: its walls measure 2 reference areas, those of the mesh before 1"),
-            ('["missing.msh"]', "derivatives.coarser_meshes, missing.msh: cannot read the file"),
+            ('["missing.msh"]', "derivatives.coarser_meshes, missing.msh: no such mesh"),
             ('["other.msh"]', 'derivatives.coarser_meshes, other.msh: patch "flanks" of the mesh has no boundary condition'),
             ('["box3.msh", "box4.msh"]', "derivatives.coarser_meshes, box4.msh: 384 cells are not coarser than the 162"),
             ('["box.msh"]', "derivatives.coarser_meshes, box.msh: 1296 cells are not coarser than the 1296"),

@@ -141,7 +141,7 @@ class Faults(unittest.TestCase):
             'case.toml: patch "wall" of the mesh has no boundary condition',
             'case.toml:9: [boundary] names "fins", which the mesh does not have',
             "motion.txt: the table ends at t_star = 1, before unsteady.duration",
-            "derivatives.coarser_meshes, none.msh: cannot read the file",
+            "derivatives.coarser_meshes, none.msh: no such mesh",
             'derivatives.coarser_meshes, other.msh: patch "wall" of the mesh has no boundary condition',
         ):
             self.assertEqual(outcome.err.count(words), 1, words + "\n" + outcome.err)
@@ -150,7 +150,7 @@ class Faults(unittest.TestCase):
         write_case(self.folder, CASE + '[derivatives]\ncoarser_meshes = ["none.msh", "box.msh"]\n')
         outcome = run(self.folder, "check", "case.toml")
         self.assertEqual(outcome.codes, [1] * RANKS)
-        self.assertIn("derivatives.coarser_meshes, none.msh: cannot read the file", outcome.err)
+        self.assertIn("derivatives.coarser_meshes, none.msh: no such mesh", outcome.err)
         self.assertIn("derivatives.coarser_meshes, box.msh: 48 cells are not coarser than the 48", outcome.err)
 
     def test_inputs_that_are_no_files_of_their_kind(self) -> None:

@@ -15,10 +15,10 @@
 
 #include "bench/flops.hpp"
 #include "bench/machine.hpp"
+#include "case_file/case_file.hpp"
 #include "core/error.hpp"
 #include "core/timer.hpp"
-#include "io/case.hpp"
-#include "io/case_file.hpp"
+#include "derivatives/case.hpp"
 #include "io/mesh_reader.hpp"
 #include "io/partitioned_mesh.hpp"
 #include "linear/block_lu_sgs.hpp"

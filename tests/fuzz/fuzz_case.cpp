@@ -4,9 +4,9 @@
 #include <cstdlib>
 #include <string>
 
+#include "case_file/case_file.hpp"
 #include "core/error.hpp"
 #include "fuzz/largest_allocation.hpp"
-#include "io/case_file.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace alphadot;

@@ -8,9 +8,10 @@
 #include <filesystem>
 #include <fstream>
 
+#include "case_file/case_difference.hpp"
+#include "case_file/case_file.hpp"
+#include "case_file/history_info.hpp"
 #include "core/error.hpp"
-#include "io/case_difference.hpp"
-#include "io/case_file.hpp"
 #include "io/checkpoint_folder.hpp"
 #include "io/files.hpp"
 #include "io/seal.hpp"

@@ -87,13 +87,13 @@ TEST(FolderLock, RefusalNamesTheFolderAndTheRemedy) {
   EXPECT_THROW(FolderLock("/proc/alphadot"), InputError);  // not even root may write there
 }
 
-TEST(ReadTextFile, RefusesWhatIsNoFileOfThatKind) {
+TEST(ReadFile, RefusesWhatIsNoFileOfThatKind) {
   const TemporaryFolder folder;
   std::ofstream(folder / "text") << "abc";
-  EXPECT_EQ(read_text_file(folder / "text", "table", 3), "abc");
+  EXPECT_EQ(read_file(folder / "text", "table", 3), "abc");
   const auto message = [](const std::string& path) {
     try {
-      read_text_file(path, "table", 2);
+      read_file(path, "table", 2);
     } catch (const InputError& error) {
       return std::string(error.what());
     }

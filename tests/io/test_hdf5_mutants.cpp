@@ -6,8 +6,8 @@
 #include <fstream>
 #include <functional>
 
+#include "case_file/case_file.hpp"
 #include "core/error.hpp"
-#include "io/case_file.hpp"
 #include "io/checkpoint.hpp"
 #include "io/history.hpp"
 #include "io/partitioned_mesh.hpp"
@@ -98,10 +98,13 @@ TEST_F(Hdf5Mutants, OfACheckpoint) {
 }
 
 TEST_F(Hdf5Mutants, OfAPreparedMesh) {
-  const Share share = gather_share(scatter(mesh, std::vector<int>(mesh.cells.size(), 0), comm), comm);
+  const RankMesh rank_mesh =
+      gather_rank_mesh(scatter(mesh, std::vector<int>(mesh.cells.size(), 0), comm), comm);
   const auto part = scatter(mesh, std::vector<int>(mesh.cells.size(), 0), comm);
   write_partitioned_mesh(
-      path, reorder(share, decompose(share, 2, Partitioner::metis, "box", comm), 2, part.points, comm), comm);
+      path,
+      reorder(rank_mesh, decompose(rank_mesh, 2, Partitioner::metis, "box", comm), 2, part.points, comm),
+      comm);
   read_mutants([&](const std::string& mutant) {
     const MeshPart read = read_partitioned_mesh(mutant, comm);
     // The sums over the arrays leave names and pieces alone.

@@ -9,8 +9,9 @@
 #include <fstream>
 #include <sstream>
 
+#include "case_file/case_file.hpp"
+#include "case_file/history_info.hpp"
 #include "core/error.hpp"
-#include "io/case_file.hpp"
 #include "io/temporary_folder.hpp"
 #include "motion/settings.hpp"
 

@@ -42,13 +42,13 @@ class PartitionedMesh : public testing::Test {
   /// The box in so many pieces, prepared by the ranks of `who`.
   static std::string prepare(const std::string& path, int pieces, const Communicator& who) {
     const Mesh mesh = box_mesh({.cells = {5, 4, 4}, .upper = {2, 1, 1}, .perturbation = 0.1});
-    const EqualShares shares(cells, who.size());
+    const EqualSlabs slabs(cells, who.size());
     std::vector<int> owner;
-    for (GlobalIndex cell = 0; cell < cells; ++cell) owner.push_back(shares.rank_of(cell));
+    for (GlobalIndex cell = 0; cell < cells; ++cell) owner.push_back(slabs.rank_of(cell));
     const MeshPart part = scatter(mesh, owner, who);
-    const Share share = gather_share(part, who);
-    const auto piece = decompose(share, pieces, Partitioner::metis, "box", who);
-    return write_partitioned_mesh(path, reorder(share, piece, pieces, part.points, who), who);
+    const RankMesh rank_mesh = gather_rank_mesh(part, who);
+    const auto piece = decompose(rank_mesh, pieces, Partitioner::metis, "box", who);
+    return write_partitioned_mesh(path, reorder(rank_mesh, piece, pieces, part.points, who), who);
   }
 
   void expect_error(const std::string& path, const std::string& text) const {
@@ -153,7 +153,7 @@ TEST_F(PartitionedMesh, RefusesMoreRanksThanCells) {
   if (comm.is_root()) {
     const Communicator alone(MPI_COMM_SELF);
     const MeshPart part = scatter(one, {0}, alone);
-    write_partitioned_mesh(path, reorder(gather_share(part, alone), {0}, 1, part.points, alone), alone);
+    write_partitioned_mesh(path, reorder(gather_rank_mesh(part, alone), {0}, 1, part.points, alone), alone);
   }
   comm.barrier();
   expect_error(path, "ranks for 1 cells");

@@ -68,6 +68,27 @@ TEST(TurnedAxes, TurnFixedVectorsAtMinusTheRotation) {
   expect_near(difference, -cross(axis, on_turned_axes(v, at * axis)), 1e-8);
 }
 
+// What is fixed to a turning body moves at omega x v, about whatever axis: d/dt of the vector carried along,
+// by central differences of error step^2 / 6 times third derivatives below 10. Where the axis stays, omega is
+// the rate to the last bit.
+TEST(AngularVelocity, CarriesWhatIsFixedToTheBody) {
+  const Vec3 v{1, -2, 0.5}, rate{-0.8, 0.3, 0.6};
+  constexpr Real step = 1e-4;
+  for (const Vec3& angle : {Vec3{0.4, -0.2, 0.9}, Vec3{2, 1, -1.5}, Vec3{3e-3, 4e-3, 0}, Vec3{}}) {
+    const auto carried = [&](Real time) { return on_turned_axes(v, -(angle + time * rate)); };
+    const Vec3 difference = (0.5 / step) * (carried(step) - carried(-step));
+    expect_near(difference, cross(angular_velocity(angle, rate), carried(0)), 1e-7);
+  }
+  expect_near(angular_velocity({0, 0.7, 0}, {0, 0.3, 0}), {0, 0.3, 0}, 0);
+}
+
+// The two branches of the factors meet: 0.01 is where the series ends, its next terms are below 1e-14.
+TEST(AngularVelocity, IsContinuousWhereTheSeriesEnds) {
+  const Vec3 axis{0.6, 0, 0.8}, rate{-0.8, 0.3, 0.6};
+  expect_near(angular_velocity((0.01 - 1e-12) * axis, rate), angular_velocity((0.01 + 1e-12) * axis, rate),
+              1e-11);
+}
+
 // The velocity of a rigid body: v = v0 + omega x r; by hand.
 TEST(GridMotion, IsThatOfARigidBody) {
   const GridMotion<Real> grid{{1, 2, 3}, {0, 0.5, 0}, {5, 0, 0}};

@@ -81,7 +81,8 @@ class Install(unittest.TestCase):
         self.assertFalse(list(self.prefix.rglob("*.msh")))
 
     def test_somebody_elses_project(self) -> None:
-        """Busemann's CN = c1 alpha - c2 alpha^2 of the upper side of a plate, as in test_commands.py, found through the library."""
+        """Busemann's CN = c1 alpha - c2 alpha^2 of the upper side of a plate, as in test_commands.py, and its derivative, found
+        through the library; the linear solves on both sides in three decades."""
         build, mesh = self.folder / "consumer", self.folder / "box.msh"
         ran(
             *(CMAKE, "-S", HERE / "consumer", "-B", build, "-G", os.environ["GENERATOR"]),
@@ -89,11 +90,13 @@ class Install(unittest.TestCase):
         )
         ran(CMAKE, "--build", build)
         mesh.write_text(gmsh_text(*box(6)))
-        status, _, normal_force = ran(build / "consumer", mesh).split()
-        self.assertEqual(status, "converged")
+        status, _, normal_force, _, forward, name, adjoint = ran(build / "consumer", mesh).split()
+        self.assertEqual((status, name), ("converged", "CN_alpha"))
         alpha, beta2 = math.radians(1.0), 3.0
         c1, c2 = 2.0 / math.sqrt(beta2), (2.4 * 16.0 - 4.0 * beta2) / (2.0 * beta2**2)
         self.assertAlmostEqual(float(normal_force), c1 * alpha - c2 * alpha**2, delta=0.01 * c1 * alpha)
+        self.assertAlmostEqual(float(forward), c1 - 2 * c2 * alpha, delta=0.01 * c1)
+        self.assertAlmostEqual(float(adjoint), float(forward), delta=1e-3 * c1)
 
 
 if __name__ == "__main__":

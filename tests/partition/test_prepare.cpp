@@ -29,9 +29,9 @@ using testing_support::test_box;
 /// The box in equal stretches of its order.
 MeshPart box_part(const Communicator& comm) {
   const Mesh mesh = test_box();
-  const EqualShares shares(static_cast<GlobalIndex>(mesh.cells.size()), comm.size());
+  const EqualSlabs slabs(static_cast<GlobalIndex>(mesh.cells.size()), comm.size());
   std::vector<int> owner;
-  for (GlobalIndex cell = 0; cell < shares.total; ++cell) owner.push_back(shares.rank_of(cell));
+  for (GlobalIndex cell = 0; cell < slabs.total; ++cell) owner.push_back(slabs.rank_of(cell));
   return scatter(mesh, owner, comm);
 }
 
@@ -85,9 +85,9 @@ INSTANTIATE_TEST_SUITE_P(Libraries, Decompose, testing::Values(Partitioner::meti
 TEST_P(Decompose, MakesEvenPartsOfSmallSurface) {
   const Communicator comm;
   constexpr int parts = 4;
-  const Share share = gather_share(box_part(comm), comm);
-  const auto part = decompose(share, parts, GetParam(), "box", comm);
-  ASSERT_EQ(part.size(), static_cast<std::size_t>(share.owned_cells()));
+  const RankMesh rank_mesh = gather_rank_mesh(box_part(comm), comm);
+  const auto part = decompose(rank_mesh, parts, GetParam(), "box", comm);
+  ASSERT_EQ(part.size(), static_cast<std::size_t>(rank_mesh.owned_cells()));
   std::vector<GlobalIndex> size(parts, 0);
   for (const int p : part) {
     ASSERT_TRUE(p >= 0 && p < parts);
@@ -96,7 +96,7 @@ TEST_P(Decompose, MakesEvenPartsOfSmallSurface) {
   comm.sum(std::span<GlobalIndex>(size));
   for (const GlobalIndex cells : size) EXPECT_NEAR(cells, 210, 0.03 * 210);
 
-  const auto mesh = reorder(share, part, parts, box_part(comm).points, comm);
+  const auto mesh = reorder(rank_mesh, part, parts, box_part(comm).points, comm);
   const auto domain = distribute(mesh.part, comm);
   EXPECT_NO_THROW(domain.validate());
   GlobalIndex cut = 0;
@@ -113,8 +113,8 @@ TEST_P(Decompose, MakesEvenPartsOfSmallSurface) {
 
 TEST_P(Decompose, RefusesMorePartsThanCells) {
   const Communicator comm;
-  const Share share = gather_share(box_part(comm), comm);
-  EXPECT_THROW(decompose(share, 841, GetParam(), "box", comm), InputError);
+  const RankMesh rank_mesh = gather_rank_mesh(box_part(comm), comm);
+  EXPECT_THROW(decompose(rank_mesh, 841, GetParam(), "box", comm), InputError);
 }
 
 // Cells, triangles and pieces only change their places: seen through points, the mesh stays what it was.
@@ -122,11 +122,12 @@ TEST(Reorder, KeepsTheMesh) {
   const Communicator comm;
   const Mesh mesh = test_box();
   const MeshPart part = box_part(comm);
-  const Share share = gather_share(part, comm);
+  const RankMesh rank_mesh = gather_rank_mesh(part, comm);
   const auto owner = random_owners(mesh, 5);
   std::vector<int> piece;
-  for (Index cell = 0; cell < share.owned_cells(); ++cell) piece.push_back(owner[share.cell_ids[cell]]);
-  const OrderedMesh ordered = reorder(share, piece, 5, part.points, comm);
+  for (Index cell = 0; cell < rank_mesh.owned_cells(); ++cell)
+    piece.push_back(owner[rank_mesh.cell_ids[cell]]);
+  const OrderedMesh ordered = reorder(rank_mesh, piece, 5, part.points, comm);
 
   EXPECT_EQ(ordered.piece_begin.front(), 0);
   EXPECT_EQ(ordered.piece_begin.back(), 840);

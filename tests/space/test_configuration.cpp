@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "derivatives/case.hpp"
 #include "partition/face_matching.hpp"
 #include "space/plausibility.hpp"
 #include "support/box_mesh.hpp"

@@ -168,10 +168,9 @@ TEST_F(MeshReader, NamesBecomeUtf8) {
 }
 
 TEST_F(MeshReader, TellsWhyAFileCannotBeRead) {
-  expect_parts(error_in(folder_ / "none.msh"), {"none.msh: cannot read the file: there is no such file"});
+  expect_parts(error_in(folder_ / "none.msh"), {"none.msh: no such mesh"});
   std::filesystem::create_directory(folder_ / "folder.msh");
-  expect_parts(error_in(folder_ / "folder.msh"),
-               {"folder.msh: cannot read the file: it is not a regular file"});
+  expect_parts(error_in(folder_ / "folder.msh"), {"folder.msh: the mesh is not a regular file"});
 }
 
 /// Expects the unit cube that other programs wrote: 24 cells, 4 triangles on x = 0 and 20 elsewhere.

@@ -1,0 +1,294 @@
+#include "case_file/case_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <deque>
+#include <filesystem>
+#include <map>
+#include <tuple>
+
+#include "case_file/case_keys.hpp"
+#include "case_file/suggestion.hpp"
+#include "core/error.hpp"
+#include "core/fit_needs.hpp"
+#include "io/files.hpp"
+#include "io/toml_text.hpp"
+
+namespace alphadot {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uintmax_t largest_file = 1 << 20;  ///< bytes
+constexpr std::size_t most_problems = 50;         ///< that one message tells of
+
+/// A key that is none of ours, with the one that was probably meant.
+Problem unknown_key(const std::string& path, int line) {
+  const std::string name = path.substr(path.rfind('.') + 1);
+  const std::string prefix = path.substr(0, path.size() - name.size());
+  std::vector<std::string> siblings;
+  std::string meant;
+  for (const auto& key : case_keys()) {
+    if (key.name() == name) meant = key.path;  // the right name in the wrong table, or in none
+    if (key.table() == prefix)
+      siblings.emplace_back(key.name());
+    else if (prefix.empty())
+      siblings.emplace_back(key.table().substr(0, key.table().size() - 1));
+  }
+  if (const auto sibling = nearest(name, siblings); meant.empty() && !sibling.empty())
+    meant = prefix + sibling;
+  const std::string shown = path.size() <= 80 ? path : path.substr(0, 80) + "...";
+  return {"", line, "unknown key " + shown,
+          meant.empty() ? "alphadot keys lists the keys" : "did you mean " + meant + "?"};
+}
+
+bool is_table(const std::string& path) {
+  return std::ranges::any_of(case_keys(),
+                             [&](const auto& key) { return key.table().starts_with(path + "."); });
+}
+
+/// {value = ...} from the right-hand side of an override, as TOML or else as text; nothing when it can be
+/// neither.
+std::optional<toml::table> override_value(const std::string& text, bool wants_text) {
+  for (const auto& value : {text, toml_string(text)}) {
+    const std::string line = "value = " + value;
+    if (unsafe_line(line).line > 0) continue;
+    try {
+      auto table = toml::parse(line);
+      if (table.size() == 1 && (!wants_text || table.get("value")->is_string())) return table;
+    } catch (const toml::parse_error&) {
+      continue;  // not TOML as it stands: the second round takes it as text
+    }
+  }
+  return std::nullopt;
+}
+
+/// Reads one case: collects what the file and the overrides say key by key, then everything that is wrong
+/// with it.
+class CaseReader {
+ public:
+  explicit CaseReader(std::string path) : path_(std::move(path)) {}
+
+  void add_text(std::string_view text) {
+    auto problem = unsafe_line(text);
+    if (problem.line == 0) {
+      try {
+        file_ = toml::parse(text);
+        return collect("", file_);
+      } catch (const toml::parse_error& error) {
+        problem.line = static_cast<int>(error.source().begin.line);
+        problem.what = error.description();
+      }
+    }
+    complain(path_, std::move(problem));
+    unreadable_ = true;
+  }
+
+  void add_override(const std::string& assignment) {
+    const std::string place = "--set " + assignment;
+    const auto equals = assignment.find('=');
+    if (equals == std::string::npos)
+      return complain(place, {"", 0, "is not of the form key=value", "for example --set freestream.mach=2"});
+    const std::string path = assignment.substr(0, equals);
+    const auto* key = find_case_key(path);
+    if (!key) return complain(place, unknown_key(path, 0));
+    auto value = override_value(assignment.substr(equals + 1), key->is_text);
+    if (!value) return complain(place, {"", 0, "the value is not valid text", ""});
+    overrides_.push_back(std::move(*value));
+    entries_[path] = {key, overrides_.back().get("value"), place, 0};
+  }
+
+  CaseDraft finish() {
+    CaseDraft out;
+    Case& c = out.settings;
+    c.file = path_;
+    for (const auto& [path, entry] : entries_) {
+      const auto name = std::string_view(path).substr(entry.key->table().size());
+      if (auto problem = entry.key->read(name, *entry.node, c))
+        complain(entry.place, {"", entry.line, path + " " + problem->what, problem->remedy});
+      if (entry.key->is_family() && entry.line > 0) c.boundary_lines[std::string(name)] = entry.line;
+    }
+    if (!unreadable_) {
+      check_required();
+      check_together(c);
+    }
+    fill_in(c);
+    out.is_readable = !unreadable_;
+    out.problems = sorted_problems();
+    return out;
+  }
+
+ private:
+  /// What was said about a key, and where: in the file, or by the override that is its place.
+  struct Entry {
+    const CaseKey* key = nullptr;
+    const toml::node* node = nullptr;
+    std::string place;
+    int line = 0;
+  };
+
+  void complain(const std::string& place, Problem problem) {
+    if (problems_.size() == most_problems) {
+      ++left_out_;
+      return;
+    }
+    problem.file = place;
+    problems_.push_back(std::move(problem));
+  }
+
+  /// A problem with a combination of keys, placed at the first of `paths` that was given.
+  void complain_about(const std::vector<std::string>& paths, std::string what, std::string remedy = "") {
+    Entry entry{nullptr, nullptr, path_, 0};
+    for (auto path = paths.rbegin(); path != paths.rend(); ++path)
+      if (const auto found = entries_.find(*path); found != entries_.end()) entry = found->second;
+    complain(entry.place, {"", entry.line, std::move(what), std::move(remedy)});
+  }
+
+  void collect(const std::string& prefix, const toml::table& table) {
+    for (const auto& [key, node] : table) {
+      const std::string path = prefix + std::string(key.str());
+      const int line = static_cast<int>(key.source().begin.line);
+      if (const auto* known = find_case_key(path))
+        entries_[path] = {known, &node, path_, line};
+      else if (!is_table(path))
+        complain(path_, unknown_key(path, line));
+      else if (const auto* inner = node.as_table())
+        collect(path + ".", *inner);
+      else
+        complain(path_, {"", line, path + " must be a table", "write [" + path + "]"});
+    }
+  }
+
+  void check_required() {
+    for (const auto& key : case_keys()) {
+      const auto is_given = [&](const auto& path_and_entry) { return path_and_entry.second.key == &key; };
+      if (!key.required || std::ranges::any_of(entries_, is_given)) continue;
+      const std::string table(key.table().substr(0, key.table().size() - 1));
+      const auto* node = file_.get(table);
+      const int line = node ? static_cast<int>(node->source().begin.line) : 0;
+      if (key.is_family())
+        complain(path_, {"", line, "[" + table + "] is missing or empty",
+                         "give each patch of the mesh " + key.type});
+      else
+        complain(path_, {"", line, key.path + " is missing", "give " + key.type + ": " + key.doc});
+    }
+  }
+
+  /// What no single key can tell.
+  void check_together(const Case& c) {
+    const auto kind = c.motion.kind;
+    const std::string motion = "motion.kind = " + toml_string(word_of(kind));
+    if (c.steady.cfl_max < c.steady.cfl_start)
+      complain_about({"steady.cfl_max", "steady.cfl_start"}, "steady.cfl_max is below steady.cfl_start");
+    if (c.reference.half_model && c.freestream.beta != 0)
+      complain_about({"freestream.beta"}, "a half model has no sideslip", "use a full model or beta = 0");
+    if (c.reference.half_model &&
+        (kind == MotionKind::sway || kind == MotionKind::yaw || kind == MotionKind::roll))
+      complain_about({"motion.kind"}, motion + " needs a full model", "set reference.model = \"full\"");
+    if (kind == MotionKind::table && c.motion.table_file.empty())
+      complain_about({"motion.kind"}, motion + " needs motion.table_file");
+    if (kind != MotionKind::none && norm(c.motion.rotation) != 0)
+      complain_about({"motion.rotation"}, "a steady rotation excludes " + motion, "leave out either of them");
+    if (c.reference.half_model && (c.motion.rotation.x != 0 || c.motion.rotation.z != 0))
+      complain_about({"motion.rotation"}, "a half model can only rotate in pitch",
+                     "set reference.model = \"full\"");
+    const bool has_duration = kind == MotionKind::step_alpha || kind == MotionKind::ramp_alpha ||
+                              kind == MotionKind::step_q || kind == MotionKind::table;
+    if (has_duration && c.unsteady.duration <= 0)
+      complain_about({"unsteady.duration", "motion.kind"}, motion + " needs unsteady.duration > 0");
+    if (has_duration && c.unsteady.steps < 1)
+      complain_about({"unsteady.steps", "motion.kind"}, motion + " needs unsteady.steps >= 1");
+    check_derivatives(c);
+  }
+
+  /// A motion that runs to its end must yield derivatives.
+  void check_derivatives(const Case& c) {
+    const auto& unsteady = c.unsteady;
+    const auto refuse = [&](const std::string& key, Real value, Real least, const std::string& why) {
+      if (value < least)
+        complain_about({"unsteady." + key, "motion.kind"},
+                       fmt::format("unsteady.{} = {:g} gives no derivatives: {}", key, value, why),
+                       fmt::format("set unsteady.{} = {:g} or more", key, least));
+    };
+    switch (c.motion.kind) {
+      case MotionKind::none:
+      case MotionKind::table:
+        return;
+      case MotionKind::step_alpha:
+      case MotionKind::step_q:
+        return refuse("steps", unsteady.steps, least_step_samples - 1, "too few for the response to a step");
+      case MotionKind::ramp_alpha: {
+        static_assert(ramp_transient == 0.5);
+        return refuse("steps", unsteady.steps, 2 * (least_ramp_samples - 1),
+                      "too few are left behind the start of the ramp, which takes half of it");
+      }
+      default:
+        if (unsteady.cycles * unsteady.steps_per_cycle > most_steps)
+          complain_about({"unsteady.cycles", "unsteady.steps_per_cycle"},
+                         fmt::format("unsteady.cycles * unsteady.steps_per_cycle is {:g} time steps",
+                                     unsteady.cycles * unsteady.steps_per_cycle),
+                         fmt::format("ask for at most {}", most_steps));
+        refuse("cycles", unsteady.cycles, discarded_cycles + least_fitted_cycles,
+               fmt::format("the first {:g} are left out as start-up, and the fit takes {:g}",
+                           discarded_cycles, least_fitted_cycles));
+        refuse("steps_per_cycle", unsteady.steps_per_cycle, steps_per_harmonic * fitted_harmonics + 1,
+               fmt::format("the fit goes up to {} times the frequency, with more than {} steps a period",
+                           fitted_harmonics, steps_per_harmonic));
+    }
+  }
+
+  /// Defaults that depend on other keys, and absolute paths.
+  void fill_in(Case& c) const {
+    std::vector<std::string*> files{&c.mesh.file, &c.motion.table_file};
+    for (auto& file : c.derivatives.coarser_meshes) files.push_back(&file);
+    for (auto* file : files)
+      if (!file->empty()) *file = fs::absolute(fs::path(path_).parent_path() / *file).lexically_normal();
+    if (!entries_.contains("motion.axis_point")) c.motion.axis_point = c.reference.moment_center;
+    if (c.output.folder.empty()) c.output.folder = "runs/" + fs::path(path_).stem().string();
+  }
+
+  std::vector<Problem> sorted_problems() {
+    const auto order = [&](const Problem& p) {
+      return std::tuple(p.file != path_, p.file == path_ ? p.line : 0);
+    };
+    std::ranges::stable_sort(problems_, {}, order);
+    if (left_out_ > 0)
+      problems_.push_back({path_, 0, fmt::format("and {} more mistakes", left_out_), "is it a case file?"});
+    return std::move(problems_);
+  }
+
+  std::string path_;
+  toml::table file_;
+  std::deque<toml::table> overrides_;  ///< entries point into it: elements must not move
+  std::map<std::string, Entry> entries_;
+  std::vector<Problem> problems_;
+  int left_out_ = 0;         ///< problems beyond the first most_problems
+  bool unreadable_ = false;  ///< the file is not TOML: what it lacks cannot be told
+};
+
+}  // namespace
+
+CaseDraft draft_case(std::string_view text, const std::string& path,
+                     const std::vector<std::string>& overrides) {
+  CaseReader reader(path);
+  reader.add_text(text);
+  for (const auto& assignment : overrides) reader.add_override(assignment);
+  return reader.finish();
+}
+
+Case parse_case(std::string_view text, const std::string& path, const std::vector<std::string>& overrides) {
+  auto draft = draft_case(text, path, overrides);
+  if (!draft.problems.empty()) throw InputError(std::move(draft.problems));
+  return std::move(draft.settings);
+}
+
+std::string read_case_text(const std::string& path) {
+  return read_file(path, "case file", largest_file);
+}
+
+Case read_case(const std::string& path, const std::vector<std::string>& overrides) {
+  return parse_case(read_case_text(path), path, overrides);
+}
+
+}  // namespace alphadot

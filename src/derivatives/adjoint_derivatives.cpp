@@ -1,0 +1,148 @@
+#include "derivatives/adjoint_derivatives.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <span>
+#include <utility>
+
+#include "core/error.hpp"
+#include "core/log.hpp"
+#include "derivatives/block_solve.hpp"
+
+namespace alphadot {
+
+namespace {
+
+/// What has to be solved for, by the length of the chain: adjoints to rates rest on those before them.
+std::vector<std::vector<Functional>> chains_of(const std::vector<Functional>& functionals) {
+  std::vector<std::vector<Functional>> out;
+  for (const int rates : {0, 1, 2}) {
+    auto& links = out.emplace_back();
+    for (const auto& functional : functionals) {
+      const Functional link{functional.coefficient, functional.patches, rates};
+      if (functional.rates >= rates &&
+          std::ranges::find(links, link.name(), &Functional::name) == links.end())
+        links.push_back(link);
+    }
+  }
+  return out;
+}
+
+}  // namespace
+
+std::vector<Functional> all_functionals(const FlightCondition& settings) {
+  std::vector<Functional> out;
+  for (int coefficient = 0; coefficient < Coefficients::size(); ++coefficient)
+    if (!vanishes(coefficient, settings)) out.push_back({coefficient});
+  return out;
+}
+
+void check_has_transpose(const Case& settings) {
+  if (settings.steady.scheme == SchemeKind::lu_sgs)
+    throw InputError(settings.file, 0, "the adjoint needs an implicit scheme that has a transpose",
+                     "set steady.scheme = \"block_lu_sgs\"");
+}
+
+AdjointDerivatives::AdjointDerivatives(FlowCase& flow, std::vector<Functional> functionals,
+                                       SolveObserver observer)
+    : flow_(flow),
+      functionals_(std::move(functionals)),
+      observer_(std::move(observer)),
+      stream_([&] {
+        check_has_transpose(flow.settings());
+        std::vector<StreamChange> out;
+        for (const auto& number : stream_numbers) out.emplace_back(flow.iteration(), flow.settings(), number);
+        return out;
+      }()),
+      solver_(flow.iteration(), flow.conditions(), flow.settings().derivatives, observer_.go_on) {
+  std::vector<std::span<const Conserved<Real>>> changes;
+  for (const auto& change : stream_) changes.push_back(change.residual());
+  solver_.follow(std::move(changes));
+}
+
+bool AdjointDerivatives::solve(Adjoints& adjoints) {
+  for (const auto& links : chains_of(functionals_)) {
+    std::vector<AdjointProblem> problems;
+    for (const auto& link : links) {
+      if (adjoints.contains(link.name())) continue;
+      if (link.rates == 0)
+        problems.push_back(
+            {link.name(), weights_of(link, flow_.setup().domain.patch_names, flow_.settings())});
+      else
+        problems.push_back({link.name(),
+                            {},
+                            adjoints.at(link.before().name()).field,
+                            adjoints.at(link.before().name()).relative_error});
+    }
+    for (std::size_t begin = 0; begin < problems.size(); begin += problems_at_a_time) {
+      const auto end = std::min(begin + problems_at_a_time, problems.size());
+      auto solved = solver_.solve({problems.begin() + static_cast<std::ptrdiff_t>(begin),
+                                   problems.begin() + static_cast<std::ptrdiff_t>(end)});
+      if (solved.empty()) return false;
+      for (auto& adjoint : solved) {
+        spdlog::info("{:12} {:3} iterations, linear residual {:.1e}", adjoint.name, adjoint.iterations,
+                     adjoint.relative_residual);
+        adjoints[adjoint.name] = std::move(adjoint);
+      }
+      if (observer_.solved) observer_.solved();
+    }
+  }
+  return true;
+}
+
+std::vector<std::string> AdjointDerivatives::unconverged(const Adjoints& adjoints,
+                                                         std::vector<std::string>& shortfalls) const {
+  const bool is_deep = flow_.steady_orders() >= deep_steady_orders;
+  if (!is_deep)
+    shortfalls.push_back(fmt::format("adjoints are about a flow {:.1f} decades down, and need {:g}",
+                                     flow_.steady_orders(), deep_steady_orders));
+  std::vector<std::string> out;
+  const auto is_in = [&](const std::string& name) { return std::ranges::find(out, name) != out.end(); };
+  for (const auto& links : chains_of(functionals_))
+    for (const auto& link : links) {
+      const Adjoint& adjoint = adjoints.at(link.name());
+      const bool rests_on_it = link.rates > 0 && is_in(link.before().name());
+      auto shortfall = shortfall_of_solve("the adjoint of " + link.name(), adjoint.relative_residual,
+                                          adjoint.iterations, flow_.settings().derivatives.orders);
+      if (!shortfall.empty() || !is_deep || rests_on_it) out.push_back(link.name());
+      if (!shortfall.empty()) shortfalls.push_back(std::move(shortfall));
+    }
+  return out;
+}
+
+std::vector<TableRow> AdjointDerivatives::rows(const Adjoints& adjoints,
+                                               std::vector<std::string>& shortfalls) const {
+  const Case& settings = flow_.settings();
+  const auto fell_short = unconverged(adjoints, shortfalls);
+  std::vector<TableRow> rows;
+  for (const auto& functional : functionals_) {
+    const Adjoint& adjoint = adjoints.at(functional.name());
+    const std::size_t first = rows.size();
+    for (const Variable variable : variables_of(functional, settings))
+      rows.push_back({derivative_name(functional, name(variable)), derivative(adjoint, variable, settings),
+                      "adjoint, k -> 0"});
+    for (std::size_t i = 0; functional.rates == 0 && i < stream_.size(); ++i)
+      rows.push_back(
+          {derivative_name(functional, stream_[i].name()),
+           {stream_[i].by_itself(functional, flow_.setup().domain.patch_names) + adjoint.products[i],
+            adjoint.products_error[i]},
+           "adjoint, incidence and reduced rates held"});
+    for (std::size_t i = first; i < rows.size(); ++i)
+      rows[i].converged = std::ranges::find(fell_short, functional.name()) == fell_short.end();
+  }
+  return rows;
+}
+
+bool AdjointDerivatives::has_shape() const {
+  const auto& space = flow_.settings().space;
+  return space.order == 1 || space.gradient == GradientKind::least_squares;
+}
+
+SurfaceSensitivity AdjointDerivatives::by_shape(const Functional& functional, const Adjoints& adjoints) {
+  const auto weights = weights_of(functional, flow_.setup().domain.patch_names, flow_.settings());
+  return {flow_.discretization(), flow_.communicator(),
+          solver_.by_points(adjoints.at(functional.name()), weights)};
+}
+
+}  // namespace alphadot

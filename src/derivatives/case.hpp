@@ -1,0 +1,62 @@
+// What a run is asked to do: every key of the case file as plain data with its default.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "core/words.hpp"
+#include "derivatives/settings.hpp"
+#include "march/settings.hpp"
+#include "motion/flight_condition.hpp"
+#include "space/settings.hpp"
+
+namespace alphadot {
+
+struct MeshSettings {
+  std::string file;                    ///< as resolved against the case file's folder
+  Real scale = 1;                      ///< mesh units to the units of [reference]
+  std::vector<std::string> thin = {};  ///< patches inside the mesh that become walls with two sides
+};
+
+struct OutputSettings {
+  std::string folder;   ///< default: runs/<name of the case file>
+  bool flow = true;     ///< write flow.vtkhdf
+  bool surface = true;  ///< write surface.vtkhdf
+};
+
+enum class FailureAction { stop, go_on };
+
+namespace words {
+inline constexpr Word<FailureAction> failure[] = {{"stop", FailureAction::stop},
+                                                  {"continue", FailureAction::go_on}};
+}
+template <>
+inline constexpr std::span<const Word<FailureAction>> words_of<FailureAction> = words::failure;
+
+struct CheckpointSettings {
+  Real minutes = 30;            ///< of wall time between checkpoints; 0: not by time
+  int steps = 0;                ///< time steps between checkpoints; 0: not by steps
+  int iterations = 0;           ///< steady iterations between checkpoints; 0: not by iterations
+  int keep = 2;                 ///< the newest that are kept
+  Real wall_limit_minutes = 0;  ///< of the whole run: it ends with a checkpoint before; 0: no limit
+  FailureAction on_failure = FailureAction::stop;  ///< when a checkpoint cannot be written
+  Real watchdog_minutes = 0;  ///< without an iteration that end a run as hanging; 0: never
+};
+
+/// A whole case. `boundary` maps the mesh's patch names to their treatment.
+struct Case : FlightCondition {
+  std::string title;
+  std::string file;  ///< path of the case file, for messages
+  MeshSettings mesh;
+  std::map<std::string, BoundaryKind> boundary;
+  std::map<std::string, int> boundary_lines;  ///< where the case file names the patches, for messages
+  SpaceSettings space;
+  SteadySettings steady;
+  UnsteadySettings unsteady;
+  DerivativeSettings derivatives;
+  OutputSettings output;
+  CheckpointSettings checkpoint;
+};
+
+}  // namespace alphadot

@@ -1,0 +1,130 @@
+#include "derivatives/extraction.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "analysis/harmonic_derivatives.hpp"
+#include "analysis/indicial.hpp"
+#include "analysis/ramp.hpp"
+#include "core/error.hpp"
+#include "core/fit_needs.hpp"
+#include "motion/motion.hpp"
+
+namespace alphadot {
+
+namespace {
+
+/// Column that the motion's angle is recorded in.
+std::string angle_column(MotionKind kind) {
+  switch (kind) {
+    case MotionKind::sway:
+    case MotionKind::yaw:
+      return "beta";
+    case MotionKind::flap:
+      return "theta";
+    case MotionKind::roll:
+      return "phi";
+    default:
+      return "alpha";
+  }
+}
+
+/// The history from one row on.
+ForceHistory force_history(const History& history, std::size_t first) {
+  ForceHistory out;
+  const auto from = [&](const std::string& column) {
+    const auto& values = history.column(column);
+    return std::vector<Real>(values.begin() + static_cast<std::ptrdiff_t>(std::min(first, values.size())),
+                             values.end());
+  };
+  out.time = from("t_star");
+  if (out.time.size() > 1) out.time_step = out.time.back() - out.time[out.time.size() - 2];
+  out.angle = from(angle_column(history.info.motion.kind));
+  out.loads.resize(out.time.size());
+  out.bounds.resize(out.time.size());
+  for (int i = 0; i < Coefficients::size(); ++i) {
+    const auto name = std::string(coefficient_names[static_cast<std::size_t>(i)]);
+    const auto values = from("total/" + name), bounds = from("error/" + name);
+    for (std::size_t step = 0; step < values.size(); ++step) {
+      out.loads[step][i] = values[step];
+      out.bounds[step][i] = std::abs(bounds[step]);
+    }
+  }
+  return out;
+}
+
+/// Loads of the first row, those before the motion.
+Coefficients initial_loads(const History& history) {
+  Coefficients out;
+  for (int i = 0; i < Coefficients::size(); ++i)
+    out[i] = history.column("total/" + std::string(coefficient_names[static_cast<std::size_t>(i)])).front();
+  return out;
+}
+
+/// Cycles at the start of a motion that no fit uses.
+constexpr Real least_discarded = 0.1;
+
+Extraction harmonic_extraction(const History& history, const HarmonicBasis& basis) {
+  const auto& motion = history.info.motion;
+  return {harmonic_derivatives(force_history(history, 0), motion.kind, basis).estimated,
+          fmt::format("harmonic fit, {}, k = {}", word_of(motion.kind), motion.reduced_frequency)};
+}
+
+}  // namespace
+
+Extraction extract_derivatives(const History& history) {
+  const auto& motion = history.info.motion;
+  switch (motion.kind) {
+    case MotionKind::none:
+    case MotionKind::table:
+      return {};
+    case MotionKind::step_alpha:
+      return {step_derivatives(force_history(history, 1), motion.kind, initial_loads(history),
+                               motion.amplitude * radians_per_degree),
+              fmt::format("step of {} degrees in alpha", motion.amplitude)};
+    case MotionKind::step_q:
+      return {
+          step_derivatives(force_history(history, 1), motion.kind, initial_loads(history), motion.amplitude),
+          fmt::format("step of {} in q", motion.amplitude)};
+    case MotionKind::ramp_alpha:
+      return {
+          ramp_derivatives(force_history(history, 1), initial_loads(history), history.column("alpha").front(),
+                           ramp_transient * history.column("t_star").back()),
+          fmt::format("ramp of {} degrees in alpha", motion.amplitude)};
+    default:
+      break;
+  }
+  return harmonic_extraction(history, {.reduced_frequency = motion.reduced_frequency});
+}
+
+std::pair<std::size_t, std::size_t> fitted_rows(const History& history) {
+  const auto& motion = history.info.motion;
+  const auto& time = history.column("t_star");
+  Real start = 0;
+  if (is_harmonic(motion.kind)) start = discarded_cycles * 2 * pi / motion.reduced_frequency;
+  if (motion.kind == MotionKind::ramp_alpha) start = ramp_transient * time.back();
+  const auto first = std::ranges::lower_bound(time, (1 - 1e-9) * start) - time.begin();
+  return {static_cast<std::size_t>(first), time.size()};
+}
+
+Extraction derivatives_so_far(const History& history) {
+  const auto& motion = history.info.motion;
+  try {
+    if (!is_harmonic(motion.kind)) return extract_derivatives(history);
+    const Real cycles = history.column("t_star").back() * motion.reduced_frequency / (2 * pi);
+    // Half a cycle at least; what is more goes to the start that is left out, up to the final fit's, then to
+    // the window, up to the latest cycle: the cost must not grow with the record.
+    HarmonicBasis basis{.reduced_frequency = motion.reduced_frequency, .least_cycles = 0.5};
+    if (cycles < basis.least_cycles + least_discarded) return {};
+    basis.discarded_cycles =
+        std::max(cycles - 1, std::min(cycles - basis.least_cycles, basis.discarded_cycles));
+    if (cycles < basis.discarded_cycles + 1 - 1e-6) basis.harmonics = 1;
+    return harmonic_extraction(history, basis);
+  } catch (const InputError&) {
+    return {};  // not enough of it yet
+  }
+}
+
+}  // namespace alphadot

@@ -1,0 +1,156 @@
+#include "derivatives/flow_case.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "core/error.hpp"
+#include "core/log.hpp"
+#include "derivatives/loads.hpp"
+#include "linear/block_lu_sgs.hpp"
+#include "linear/gmres.hpp"
+#include "linear/lu_sgs.hpp"
+
+namespace alphadot {
+
+namespace {
+
+std::unique_ptr<LinearSolver> make_linear_solver(const Discretization& discretization,
+                                                 const Communicator& comm, const SteadySettings& settings,
+                                                 PassOrder order) {
+  std::unique_ptr<LinearSolver> out;
+  if (settings.scheme == SchemeKind::lu_sgs)
+    out = std::make_unique<LuSgs>(discretization, comm);
+  else
+    out = std::make_unique<BlockLuSgs>(discretization, comm, settings.sweeps, order);
+  if (settings.krylov_directions == 0) return out;
+  return std::make_unique<Gmres>(discretization, comm, std::move(out), settings.krylov_directions);
+}
+
+/// Limits of the CFL number, beside the case's own, for flows that bold steps drive into vacuum (strong
+/// shocks, high incidence); tried one after the other. With the last one the scheme is nearly an explicit
+/// one: it comes to rest slowly, and follows flow that is not steady at all.
+constexpr std::array gentle_limits{1e6, 30.0, 4.0};
+
+/// Share of the limiter's threshold with which a march that stalls begins again, once: the wake of a base has
+/// no steady state until it is damped enough. Not where so many decades are reached.
+constexpr Real damped_share = 0.25, well_converged = 6;
+
+/// Steps of a march that begins again for the so manieth time.
+SteadySettings gentler(SteadySettings settings, std::size_t attempt) {
+  if (attempt == 0) return settings;
+  settings.cfl_start = std::min(settings.cfl_start / 10, gentle_limits.at(attempt - 1));
+  settings.cfl_growth = std::pow(settings.cfl_growth, 0.4);
+  settings.cfl_max = std::min(settings.cfl_max, gentle_limits.at(attempt - 1));
+  return settings;
+}
+
+constexpr std::size_t named_cells = 3;
+
+/// What a march that ended so did not reach; nothing when it did.
+std::optional<std::string> shortfall_of(const SteadyResult& result, const FlowCase& flow) {
+  if (result.status != RunStatus::completed && result.status != RunStatus::unconverged) return std::nullopt;
+  auto text = fmt::format("the steady residual dropped {:.1f} of {:g} decades in {} iterations",
+                          result.orders, flow.settings().steady.orders, result.iterations);
+  if (result.has_stalled)
+    text += fmt::format(" and falls no more, meanwhile CN goes to and fro by {:.1e}, Cm by {:.1e}",
+                        coefficients(result.swing, flow.settings()).CN,
+                        std::abs(coefficients(result.swing, flow.settings()).Cm));
+  return text + ", worst: " + named(flow.iteration().worst_cells(named_cells));
+}
+
+}  // namespace
+
+std::string named(std::span<const SuspectCell> cells) {
+  std::vector<std::string> out;
+  for (const auto& [id, at, change] : cells.first(std::min(cells.size(), named_cells)))
+    out.push_back(fmt::format("cell {} at ({:.5g}, {:.5g}, {:.5g})", id, at.x, at.y, at.z));
+  return fmt::format("{}", fmt::join(out, ", "));
+}
+
+FlowCase::FlowCase(Setup setup, const Communicator& comm)
+    : setup_(std::move(setup)),
+      comm_(comm),
+      discretization_(setup_.domain, setup_.patch_kinds, setup_.settings.space,
+                      setup_.settings.freestream.gamma),
+      motion_(setup_.settings.motion, setup_.settings.freestream, setup_.settings.reference.length,
+              setup_.settings.unsteady.duration, setup_.motion_table),
+      iteration_(
+          discretization_, comm,
+          make_linear_solver(discretization_, comm, setup_.settings.steady, pass_order(motion_.wind().x)),
+          setup_.settings.reference.moment_center) {}
+
+Conditions<Real> FlowCase::conditions() const {
+  return steady_conditions(motion_.wind(), settings().motion.axis_point, settings().freestream.gamma,
+                           motion_.steady_rotation());
+}
+
+std::unique_ptr<Treatment> FlowCase::treatment(Real time_step) {
+  return make_treatment(settings().motion.treatment, motion_, settings().motion.axis_point, time_step,
+                        setup_.domain, discretization_, comm_);
+}
+
+RunStatus FlowCase::march(const Observer& observer) {
+  const auto now = conditions();
+  const Real asked_threshold = settings().space.limiter_threshold;
+  const auto limiter_threshold = [&] { return discretization_.space().limiter_threshold; };
+  const auto begin = [&] {
+    iteration_.set_uniform(now.free_stream);
+    iteration_.freeze_limiter(false);
+    march_.steady = {};
+  };
+  const auto observe = [&](const SteadyProgress& p) {
+    march_.steady = p.state;
+    return !observer || observer(p);
+  };
+  const auto march_on = [&] {
+    return march_to_steady(iteration_, now, gentler(settings().steady, march_.attempt),
+                           settings().space.order, observe, march_.steady);
+  };
+  if (!goes_on_) begin();
+  auto result = march_on();
+  while (true) {
+    if (result.status == RunStatus::diverged && march_.attempt < gentle_limits.size()) {
+      spdlog::warn("the steady march lost its way in iteration {}: beginning again with gentler steps",
+                   result.iterations);
+      ++march_.attempt;
+    } else if (result.has_stalled && result.orders < well_converged &&
+               limiter_threshold() == asked_threshold) {
+      discretization_.set_limiter_threshold(damped_share * asked_threshold);
+      remark_ = fmt::format(
+          "the steady march stalls {:.1f} decades down with space.limiter_threshold = {:g}, "
+          "which was lowered to {:g}",
+          result.orders, asked_threshold, limiter_threshold());
+      spdlog::warn("{}: beginning again", remark_);
+    } else {
+      break;
+    }
+    begin();
+    result = march_on();
+  }
+  goes_on_ = false;
+  steady_report_ = result.report;
+  steady_orders_ = result.free_orders;
+  if (const auto& report = result.report; report.positivity_cells + report.positivity_faces > 0)
+    spdlog::info(
+        "{} cells and {} more faces fall back towards first order to keep density and pressure positive",
+        report.positivity_cells, report.positivity_faces);
+  if (result.status == RunStatus::diverged)
+    throw DivergedError(
+        "the steady march found no CFL number that holds (at high incidence "
+        "space.flux = \"van_leer\" or \"hllc\" holds where \"roe\" does not)");
+  shortfall_ = shortfall_of(result, *this);
+  return shortfall_ ? RunStatus::unconverged : result.status;
+}
+
+void FlowCase::set_steady_loads(std::vector<Load> loads) {
+  steady_report_ = {};
+  steady_report_.loads = std::move(loads);
+  steady_report_.total = total_of(steady_report_.loads);
+}
+
+}  // namespace alphadot

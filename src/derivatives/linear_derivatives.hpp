@@ -1,0 +1,50 @@
+// All stability derivatives of a case from linear solves about its steady flow.
+#pragma once
+
+#include <compare>
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "analysis/derivatives.hpp"
+#include "derivatives/flow_case.hpp"
+#include "derivatives/sensitivity.hpp"
+
+namespace alphadot {
+
+/// What was solved for, and whether the limiter's factors were held meanwhile.
+struct ResponseKey {
+  Variable variable;
+  bool limiter_held = false;
+  auto operator<=>(const ResponseKey&) const = default;
+};
+using Responses = std::map<ResponseKey, Sensitivity>;
+
+/// Whoever goes along with linear solves.
+struct SolveObserver {
+  /// Asked after each linear iteration, on every rank; false ends the solves.
+  std::function<bool()> go_on = {};
+  /// A group of solutions is there: the moment for a checkpoint.
+  std::function<void()> solved = {};
+};
+
+/// What linear solves give.
+struct LinearDerivatives {
+  /// About the case's moment centre, per rad and reduced rate. The parts are "linear", "steady" and, when the
+  /// case asks for it, "limiter". No derivatives: the observer ended the solves.
+  EstimatedDerivatives estimated;
+  std::vector<std::string> shortfalls = {};  ///< solves that did not reach their tolerance
+};
+
+/// Solves for all derivatives about the steady flow that `flow` has marched to: alpha, q, alphadot, on a full
+/// model also beta, p, r and betadot, on demand the second rates. `responses` has those that are there
+/// already and takes the others. Collective. Throws DivergedError.
+LinearDerivatives linear_derivatives(FlowCase& flow, Responses& responses,
+                                     const SolveObserver& observer = {});
+
+/// Why a solve for `what` that dropped by this much in so many iterations falls short of the decades asked
+/// for; empty when it does not.
+std::string shortfall_of_solve(std::string_view what, Real relative_residual, int iterations, Real orders);
+
+}  // namespace alphadot
