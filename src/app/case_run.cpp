@@ -2,6 +2,8 @@
 
 #include <fmt/ranges.h>
 
+#include <utility>
+
 #include "app/stop.hpp"
 #include "app/watchdog.hpp"
 #include "core/error.hpp"
@@ -66,6 +68,7 @@ RunStatus CaseRun::march() {
   const auto& checkpoint = settings().checkpoint;
   const Watchdog watchdog(
       checkpoint.watchdog_minutes, [&] { return flow_.iteration().iterations(); }, communicator());
+  auto krylov = KrylovSteps::not_yet;
   const auto observe = [&](const SteadyProgress& p) {
     if (p.iteration <= latest) {  // the march has begun again
       saved = 0;
@@ -73,6 +76,10 @@ RunStatus CaseRun::march() {
     }
     latest = p.iteration;
     progress_.show(p);
+    if (p.state.krylov != std::exchange(krylov, p.state.krylov))
+      spdlog::info("{} from iteration {} on",
+                   krylov == KrylovSteps::taken ? "Newton-Krylov steps" : "the implicit scheme alone",
+                   p.iteration + 1);
     const Request request =
         checkpoints_.request(checkpoint.iterations > 0 && p.iteration % checkpoint.iterations == 0);
     if (request.save && p.resumable) {

@@ -59,6 +59,7 @@ CheckpointHead FlowCheckpoint::steady_head(std::string phase) const {
   out.numbers["cfl"] = {steady.cfl};
   out.numbers["residuals"] = {steady.first_residual, steady.previous_residual};
   out.numbers["lowest_residual"] = {steady.lowest_residual, static_cast<Real>(steady.lowest_at)};
+  out.numbers["krylov"] = {static_cast<Real>(steady.krylov)};
   out.numbers["load_range"] = numbers_of(std::array{steady.least, steady.most});
   return out;
 }
@@ -69,7 +70,9 @@ void FlowCheckpoint::restore_march() {
   flow_.go_on_from(
       {{static_cast<int>(numbers.at("iteration").at(0)), numbers.at("cfl").at(0),
         numbers.at("residuals").at(0), numbers.at("residuals").at(1), numbers.at("lowest_residual").at(0),
-        static_cast<int>(numbers.at("lowest_residual").at(1)), range.at(0), range.at(1)},
+        static_cast<int>(numbers.at("lowest_residual").at(1)), range.at(0), range.at(1),
+        numbers.contains("krylov") ? static_cast<KrylovSteps>(numbers.at("krylov").at(0))
+                                   : KrylovSteps::not_yet},
        static_cast<std::size_t>(numbers.at("attempt").at(0))});
   restore();
 }

@@ -122,7 +122,8 @@ std::vector<CaseKey> make_keys() {
       .key("sweeps", &SteadySettings::sweeps, IntegerValue{.from = 1, .to = 100},
            "pairs of passes of the block scheme; where the flow is supersonic all but one go downstream")
       .key("krylov_directions", &SteadySettings::krylov_directions, IntegerValue{.from = 0, .to = 1000},
-           "at most so many directions a step of GMRES, preconditioned by the scheme; 0: the scheme alone")
+           "at most so many directions a Newton-Krylov step, which is taken where the scheme alone is slow; "
+           "0: never")
       .key("cfl_start", &SteadySettings::cfl_start, cfl, "first CFL number")
       .key("cfl_max", &SteadySettings::cfl_max, cfl, "largest CFL number")
       .key("cfl_growth", &SteadySettings::cfl_growth, NumberValue{.from = 1, .to = 100},

@@ -12,7 +12,6 @@
 #include "core/log.hpp"
 #include "derivatives/loads.hpp"
 #include "linear/block_lu_sgs.hpp"
-#include "linear/gmres.hpp"
 #include "linear/lu_sgs.hpp"
 
 namespace alphadot {
@@ -22,13 +21,8 @@ namespace {
 std::unique_ptr<LinearSolver> make_linear_solver(const Discretization& discretization,
                                                  const Communicator& comm, const SteadySettings& settings,
                                                  PassOrder order) {
-  std::unique_ptr<LinearSolver> out;
-  if (settings.scheme == SchemeKind::lu_sgs)
-    out = std::make_unique<LuSgs>(discretization, comm);
-  else
-    out = std::make_unique<BlockLuSgs>(discretization, comm, settings.sweeps, order);
-  if (settings.krylov_directions == 0) return out;
-  return std::make_unique<Gmres>(discretization, comm, std::move(out), settings.krylov_directions);
+  if (settings.scheme == SchemeKind::lu_sgs) return std::make_unique<LuSgs>(discretization, comm);
+  return std::make_unique<BlockLuSgs>(discretization, comm, settings.sweeps, order);
 }
 
 /// Limits of the CFL number, beside the case's own, for flows that bold steps drive into vacuum (strong

@@ -41,7 +41,7 @@ class Preconditioner {
  private:
   static constexpr std::array cfl{1e8, 1e3, 1e2, 1e1, 1.0};
 
-  LinearSolver& scheme() { return iteration_.linear_solver().preconditioner(); }
+  LinearSolver& scheme() { return iteration_.linear_solver(); }
   void linearise(std::size_t level) {
     level_ = level;
     scheme().linearise(iteration_.flow(), conditions_, {.cfl = cfl[level]});

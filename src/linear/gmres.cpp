@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "space/wave_speed.hpp"
 
@@ -13,11 +12,12 @@ namespace {
 constexpr Real left_over = 0.05;
 }  // namespace
 
-Gmres::Gmres(const Discretization& discretization, const Communicator& comm,
-             std::unique_ptr<LinearSolver> inside, int directions)
+Gmres::Gmres(const Discretization& discretization, const Communicator& comm, const Residual<Real>& residual,
+             LinearSolver& inside, int directions)
     : discretization_(discretization),
       comm_(comm),
-      inside_(std::move(inside)),
+      residual_(residual),
+      inside_(inside),
       space_(static_cast<std::size_t>(discretization.domain().owned_cells), directions,
              [this](std::vector<Real>& numbers) { comm_.sum(numbers); }),
       defect_(static_cast<std::size_t>(discretization.domain().owned_cells)),
@@ -26,9 +26,9 @@ Gmres::Gmres(const Discretization& discretization, const Communicator& comm,
 
 void Gmres::linearise(const FlowField<Real>& flow, const Conditions<Real>& conditions,
                       const TimeTerms& time) {
-  inside_->linearise(flow, conditions, time);
+  inside_.linearise(flow, conditions, time);
   tangent_.reset();
-  linearisation_.emplace(discretization_, comm_, flow, residual_->reconstruction(), conditions);
+  linearisation_.emplace(discretization_, comm_, flow, residual_.reconstruction(), conditions);
   tangent_.emplace(*linearisation_, Vec3{});
   time_scale_ = wave_speeds(discretization_, flow, conditions);
   for (std::size_t cell = 0; cell < time_scale_.size(); ++cell)
@@ -46,14 +46,14 @@ void Gmres::apply(std::span<const Primitive<Real>> direction, std::span<Conserve
 void Gmres::solve_one(const LinearSystem& system) {
   std::ranges::fill(system.update, Primitive<Real>{});
   const LinearSystem first{system.residual, defect_};
-  inside_->solve({&first, 1});
+  inside_.solve({&first, 1});
   space_.clear();
   const Real target = left_over * std::sqrt(comm_.sum(square(defect_)));
   KrylovBasis::System search{defect_, {}, {}, 0};
   do {
     apply(defect_, product_);
     const LinearSystem next{product_, image_};
-    inside_->solve({&next, 1});
+    inside_.solve({&next, 1});
     const KrylovBasis::Candidate candidate{defect_, image_, {}};
     const int before = space_.size();
     space_.add({&candidate, 1});
@@ -68,7 +68,7 @@ void Gmres::solve(std::span<const LinearSystem> systems) {
 }
 
 std::size_t Gmres::bytes() const {
-  return inside_->bytes() + space_.bytes() + (linearisation_ ? linearisation_->bytes() : 0) +
+  return space_.bytes() + (linearisation_ ? linearisation_->bytes() : 0) +
          (tangent_ ? tangent_->bytes() : 0) + time_scale_.size() * sizeof(Real) +
          3 * defect_.size() * sizeof(Primitive<Real>);
 }

@@ -1,7 +1,6 @@
 // GMRES around another implicit scheme, with the exact derivative of the second-order residual.
 #pragma once
 
-#include <memory>
 #include <optional>
 #include <vector>
 
@@ -17,17 +16,18 @@ namespace alphadot {
 /// method.
 class Gmres final : public LinearSolver {
  public:
-  /// At most so many directions a solve.
-  Gmres(const Discretization& discretization, const Communicator& comm, std::unique_ptr<LinearSolver> inside,
-        int directions);
+  /// For steps on `residual`, whose latest evaluation is at the flow of linearise(); at most so many
+  /// directions a solve. Residual and scheme must outlive this.
+  Gmres(const Discretization& discretization, const Communicator& comm, const Residual<Real>& residual,
+        LinearSolver& inside, int directions);
 
-  void attach(const Residual<Real>& residual) override { residual_ = &residual; }
   void linearise(const FlowField<Real>& flow, const Conditions<Real>& conditions,
                  const TimeTerms& time) override;
   void solve(std::span<const LinearSystem> systems) override;
-  LinearSolver& preconditioner() override { return *inside_; }
+  /// Beside those of the scheme inside.
   std::size_t bytes() const override;
-  HaloTraffic halo_traffic() const override { return inside_->halo_traffic(); }
+  /// Beside that of the scheme inside.
+  HaloTraffic halo_traffic() const override { return {}; }
 
  private:
   void solve_one(const LinearSystem& system);
@@ -36,8 +36,8 @@ class Gmres final : public LinearSolver {
 
   const Discretization& discretization_;
   const Communicator& comm_;
-  std::unique_ptr<LinearSolver> inside_;
-  const Residual<Real>* residual_ = nullptr;
+  const Residual<Real>& residual_;
+  LinearSolver& inside_;
   KrylovBasis space_;
   std::optional<Linearisation> linearisation_;
   std::optional<Tangent<1>> tangent_;

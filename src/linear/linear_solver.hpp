@@ -7,7 +7,6 @@
 #include "space/conditions.hpp"
 #include "space/discretization.hpp"
 #include "space/flow_field.hpp"
-#include "space/residual.hpp"
 
 namespace alphadot {
 
@@ -28,17 +27,12 @@ struct LinearSystem {
 class LinearSolver {
  public:
   virtual ~LinearSolver() = default;
-  /// Names the residual that steps will be taken on, once; schemes of their own linearisation pass it over.
-  virtual void attach(const Residual<Real>&) {}
   /// Linearises about `flow` (its ghosts current). May be skipped for a few iterations.
   virtual void linearise(const FlowField<Real>& flow, const Conditions<Real>& conditions,
                          const TimeTerms& time) = 0;
   /// Solves (time terms + dR/dW) update = -residual roughly, for several right-hand sides at once.
   /// Communicates.
   virtual void solve(std::span<const LinearSystem> systems) = 0;
-  /// The part that costs the same and does the same to every right-hand side: what a Krylov space can rest
-  /// on.
-  virtual LinearSolver& preconditioner() { return *this; }
   virtual std::size_t bytes() const = 0;
   virtual HaloTraffic halo_traffic() const = 0;
 };

@@ -17,9 +17,7 @@ ImplicitIteration::ImplicitIteration(const Discretization& discretization, const
       flow_(discretization.domain(), comm),
       residual_(discretization, comm),
       values_(static_cast<std::size_t>(discretization.domain().owned_cells)),
-      update_(values_.size()) {
-  solver_->attach(residual_);
-}
+      update_(values_.size()) {}
 
 void ImplicitIteration::set_uniform(const Primitive<Real>& state) {
   std::ranges::fill(flow_.values(), state);
@@ -101,7 +99,7 @@ std::vector<SuspectCell> ImplicitIteration::worst_cells(std::size_t count) const
 Index ImplicitIteration::advance() {
   ++iterations_;
   const LinearSystem system{values_, update_};
-  solver_->solve({&system, 1});
+  stepper().solve({&system, 1});
   Index capped = 0;
   for (Index cell = 0; cell < discretization_.domain().owned_cells; ++cell) {
     const Primitive<Real> before = flow_[cell];
@@ -113,13 +111,25 @@ Index ImplicitIteration::advance() {
   return capped;
 }
 
+void ImplicitIteration::use_krylov(int directions) {
+  krylov_.reset();
+  if (directions > 0)
+    krylov_ = std::make_unique<Gmres>(discretization_, comm_, residual_, *solver_, directions);
+}
+
+void ImplicitIteration::shorten(Real share) {
+  for (Index cell = 0; cell < discretization_.domain().owned_cells; ++cell)
+    flow_[cell] = update_[cell] + share * (flow_[cell] - update_[cell]);
+}
+
 void ImplicitIteration::undo() {
   std::copy(update_.begin(), update_.end(), flow_.values().begin());
 }
 
 std::size_t ImplicitIteration::bytes() const {
   return discretization_.domain().bytes() + discretization_.bytes() + flow_.bytes() + residual_.bytes() +
-         solver_->bytes() + values_.size() * sizeof(values_[0]) + update_.size() * sizeof(update_[0]);
+         solver_->bytes() + (krylov_ ? krylov_->bytes() : 0) + values_.size() * sizeof(values_[0]) +
+         update_.size() * sizeof(update_[0]);
 }
 
 }  // namespace alphadot

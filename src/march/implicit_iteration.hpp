@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/communicator.hpp"
-#include "linear/linear_solver.hpp"
+#include "linear/gmres.hpp"
 #include "space/forces.hpp"
 #include "space/residual.hpp"
 
@@ -48,6 +48,7 @@ class ImplicitIteration {
   FlowField<Real>& flow() { return flow_; }
   const FlowField<Real>& flow() const { return flow_; }
   const Residual<Real>& residual() const { return residual_; }
+  /// The implicit scheme, whatever is around it.
   LinearSolver& linear_solver() { return *solver_; }
   const Vec3& moment_center() const { return moment_center_; }
   const Discretization& discretization() const { return discretization_; }
@@ -71,12 +72,17 @@ class ImplicitIteration {
   /// The cells of all ranks in which the latest residual is not finite or else makes the density change most,
   /// worst first. Collective.
   std::vector<SuspectCell> worst_cells(std::size_t count) const;
+  /// From now on steps are Newton's, of GMRES around the scheme in at most so many directions; 0: the
+  /// scheme's own again.
+  void use_krylov(int directions);
   void linearise(const Conditions<Real>& conditions, const TimeTerms& time) {
-    solver_->linearise(flow_, conditions, time);
+    stepper().linearise(flow_, conditions, time);
   }
   /// Solves for an update from residual_values() and adds it to the flow, capped cell by cell. Returns the
   /// number of capped cells on this rank.
   Index advance();
+  /// Keeps this share of the latest advance().
+  void shorten(Real share);
   /// Takes back the latest advance().
   void undo();
 
@@ -88,6 +94,8 @@ class ImplicitIteration {
   std::size_t bytes() const;
 
  private:
+  LinearSolver& stepper() { return krylov_ ? static_cast<LinearSolver&>(*krylov_) : *solver_; }
+
   const Discretization& discretization_;
   const Communicator& comm_;
   std::unique_ptr<LinearSolver> solver_;
@@ -95,6 +103,7 @@ class ImplicitIteration {
   Reduction reduction_{[] { return std::vector<Real>{}; }, [](auto) {}};
   FlowField<Real> flow_;
   Residual<Real> residual_;
+  std::unique_ptr<Gmres> krylov_;            // around the scheme, while it is in use
   std::vector<Conserved<Real>> values_;      // [owned_cells]
   std::vector<Primitive<Real>> update_;      // [owned_cells]; after advance(): the flow before it
   std::atomic<GlobalIndex> iterations_ = 0;  // read by the watchdog's thread

@@ -26,6 +26,15 @@ constexpr Real stalled_orders = 1, little_progress = 0.5;
 /// is at its end. Smaller steps than those of this CFL number get as many more of them.
 constexpr int patience = 150;
 constexpr Real bold_cfl = 20;
+/// The scheme alone is slow when it has taken so many iterations, and so many for every decade.
+constexpr int slow_iterations = 30, slow_iterations_a_decade = 20;
+/// Of Newton-Krylov steps: their largest CFL number over the scheme's, its greatest growth in one step, the
+/// growth of the residual and the smallest share at which a step is not halved once more, and the steps
+/// without progress and those taken back after which they are given up.
+constexpr Real krylov_boldness = 1e3, krylov_growth = 10, krylov_leap = 1.2, smallest_share = 0.2;
+/// A step that is cut back, be it in one cell, is too bold unless the residual drops by this.
+constexpr Real worthwhile_drop = 1.05;
+constexpr int krylov_patience = 30, most_krylov_rejections = 4;
 
 /// Size of a density residual that is nothing but round-off: the mass flux through a mean face in double
 /// precision.
@@ -68,11 +77,13 @@ SteadyResult march_to_steady(ImplicitIteration& iteration, const Conditions<Real
   const Real freeze_orders = iteration.discretization().space().freeze_orders;
   Real cfl = resumed ? from.cfl : settings.cfl_start;
   int rescue = 0;  // iterations of first order that are left
-  int rejections = 0;
+  int rejections = 0, krylov_rejections = 0;
+  KrylovSteps krylov = from.krylov;
   const auto evaluate = [&] {
     iteration.evaluate(conditions, rescue > 0 ? 1 : order);
     return iteration.report();
   };
+  iteration.use_krylov(krylov == KrylovSteps::taken ? settings.krylov_directions : 0);
   FlowReport report = evaluate();
   const Real first = resumed ? from.first_residual : report.density_residual;
   Real previous = resumed ? from.previous_residual : first;
@@ -88,7 +99,8 @@ SteadyResult march_to_steady(ImplicitIteration& iteration, const Conditions<Real
            (report.density_residual <= round_off || orders() >= settings.orders);
   };
   const auto jacobian_is_due = [&] {
-    return jacobian_age >= (orders() < early_orders ? early_jacobian_age : late_jacobian_age);
+    return krylov == KrylovSteps::taken ||
+           jacobian_age >= (orders() < early_orders ? early_jacobian_age : late_jacobian_age);
   };
   const auto limiter_is_due = [&] {
     const bool stalled = count - lowest_at >= stalled_iterations && orders() >= stalled_orders;
@@ -98,7 +110,25 @@ SteadyResult march_to_steady(ImplicitIteration& iteration, const Conditions<Real
     const int allowed = static_cast<int>(std::min(patience * std::max(Real{1}, bold_cfl / cfl), 1e9));
     return count - lowest_at >= std::max(allowed, lowest_at);
   };
+  const auto is_slow = [&] {
+    return count >= slow_iterations && orders() * slow_iterations_a_decade < count && rescue == 0 &&
+           order > 1;
+  };
+  const auto turn_to = [&](KrylovSteps now) {
+    krylov = now;
+    iteration.use_krylov(krylov == KrylovSteps::taken ? settings.krylov_directions : 0);
+    cfl = std::min(cfl, settings.cfl_max);
+    jacobian_age = late_jacobian_age;
+    lowest = previous;
+    lowest_at = count;
+    range.begin(report.total);
+  };
+  const auto is_worse = [&](Real leap) {
+    return !report.physical || report.density_residual > leap * previous ||
+           report.density_residual > residual_growth * first;
+  };
   const auto ended = [&](RunStatus status) {
+    iteration.use_krylov(0);
     const Real reached = orders();
     Real reached_free = reached;
     const bool is_over = status == RunStatus::converged || status == RunStatus::completed;
@@ -122,11 +152,25 @@ SteadyResult march_to_steady(ImplicitIteration& iteration, const Conditions<Real
       jacobian_age = 0;
     }
     ++jacobian_age;
-    iteration.advance();
+    bool is_cut = iteration.advance() > 0;  // a Newton-Krylov step, in some cell or in all
     report = evaluate();
     ++count;
-    if (!report.physical || report.density_residual > residual_leap * previous ||
-        report.density_residual > residual_growth * first) {
+    if (krylov == KrylovSteps::taken) {
+      is_cut = iteration.communicator().any(is_cut);
+      for (Real share = 1; share > smallest_share && is_worse(krylov_leap); share /= 2) {
+        iteration.shorten(0.5);
+        report = evaluate();
+        is_cut = true;
+      }
+    }
+    if (krylov == KrylovSteps::taken && is_worse(krylov_leap)) {
+      iteration.undo();
+      report = evaluate();
+      cfl *= 0.1;
+      if (++krylov_rejections > most_krylov_rejections) turn_to(KrylovSteps::given_up);
+      continue;
+    }
+    if (is_worse(residual_leap)) {
       iteration.undo();
       iteration.freeze_limiter(false);
       cfl *= 0.1;
@@ -137,12 +181,19 @@ SteadyResult march_to_steady(ImplicitIteration& iteration, const Conditions<Real
       previous = report.density_residual;
       continue;
     }
+    const Real drop = previous / report.density_residual;
     previous = report.density_residual;
     if (rescue > 0 && --rescue == 0) {
       report = evaluate();  // the second-order residual is another one: no leap
       previous = report.density_residual;
     }
-    cfl = std::min(cfl * settings.cfl_growth, settings.cfl_max);
+    if (krylov == KrylovSteps::taken && is_cut)
+      cfl = drop < worthwhile_drop ? std::max(0.5 * cfl, std::min(cfl, settings.cfl_start)) : cfl;
+    else if (krylov == KrylovSteps::taken)
+      cfl = std::min(cfl * std::max(settings.cfl_growth, std::min(drop, krylov_growth)),
+                     krylov_boldness * settings.cfl_max);
+    else
+      cfl = std::min(cfl * settings.cfl_growth, settings.cfl_max);
     if (rescue > 0 || previous < little_progress * lowest) {
       lowest = previous;
       lowest_at = count;
@@ -151,12 +202,17 @@ SteadyResult march_to_steady(ImplicitIteration& iteration, const Conditions<Real
       range.widen(report.total);
     }
     if (limiter_is_due()) iteration.freeze_limiter(true);
-    const bool go_on = observer({count,
-                                 cfl,
-                                 orders(),
-                                 report,
-                                 {count, cfl, first, previous, lowest, lowest_at, range.least, range.most},
-                                 jacobian_is_due() && rescue == 0});
+    if (settings.krylov_directions > 0 && krylov == KrylovSteps::not_yet && is_slow())
+      turn_to(KrylovSteps::taken);
+    else if (krylov == KrylovSteps::taken && count - lowest_at >= krylov_patience)
+      turn_to(KrylovSteps::given_up);
+    const bool go_on =
+        observer({count,
+                  cfl,
+                  orders(),
+                  report,
+                  {count, cfl, first, previous, lowest, lowest_at, range.least, range.most, krylov},
+                  jacobian_is_due() && rescue == 0});
     if (is_steady()) return ended(RunStatus::converged);
     if (!go_on) return ended(RunStatus::interrupted);
     if (has_stalled()) break;

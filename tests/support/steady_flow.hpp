@@ -12,7 +12,8 @@ namespace alphadot::testing_support {
 /// Starts from the free stream and goes on until the density residual has dropped by `orders` decades.
 struct SteadyFlow {
   SteadyFlow(const BoxCase& box, const Conditions<Real>& conditions, Real orders,
-             std::unique_ptr<LinearSolver> solver = nullptr)
+             std::unique_ptr<LinearSolver> solver = nullptr,
+             int krylov_directions = SteadySettings{}.krylov_directions)
       : iteration(box.discretization, box.comm,
                   solver ? std::move(solver) : std::make_unique<BlockLuSgs>(box.discretization, box.comm, 3),
                   {}) {
@@ -20,11 +21,16 @@ struct SteadyFlow {
     SteadySettings settings;
     settings.orders = orders;
     settings.max_iterations = 3000;
+    settings.krylov_directions = krylov_directions;
     result = march_to_steady(iteration, conditions, settings, box.discretization.space().order,
-                             [](const SteadyProgress&) { return true; });
+                             [this](const SteadyProgress& progress) {
+                               if (progress.state.krylov == KrylovSteps::taken) ++krylov_steps;
+                               return true;
+                             });
   }
 
   ImplicitIteration iteration;
+  int krylov_steps = 0;
   SteadyResult result;
 };
 
