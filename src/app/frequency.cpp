@@ -19,8 +19,7 @@ namespace alphadot {
 RunStatus frequency_verb(const CaseArguments& arguments, std::vector<Real> frequencies,
                          const Communicator& comm) {
   std::ranges::sort(frequencies);
-  const auto repeated = std::ranges::unique(frequencies);
-  frequencies.erase(repeated.begin(), repeated.end());
+  frequencies.erase(std::unique(frequencies.begin(), frequencies.end()), frequencies.end());
   const SignalListener signals;
   CaseRun run(load_case(arguments.case_file, arguments.overrides, comm), arguments, "frequency", comm);
   run.check_not_in_motion();
