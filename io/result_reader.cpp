@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -26,6 +27,10 @@ class Node {
 
   Node object(const std::string& key) const { return {file_, at(key), within(key)}; }
   Real number(const std::string& key) const { return number(at(key), key); }
+  /// A half width; null, of which nothing is known, is infinite.
+  Real half_width(const std::string& key) const {
+    return at(key).is_null() ? std::numeric_limits<Real>::infinity() : number(key);
+  }
   std::string text(const std::string& key) const {
     if (!at(key).is_string()) Node::fail(within(key), "is not text");
     return at(key).get<std::string>();
@@ -86,16 +91,13 @@ RunStatus status_in(const Node& result) {
   result.fail(fmt::format("has an unknown status, {}", result.text("status")));
 }
 
-NamedValues values_of(const Node& node) {
-  NamedValues out;
-  for (const auto& key : node.keys()) out.emplace_back(key, node.number(key));
-  return out;
-}
-
 DerivativeResult derivative_in(const Node& entry) {
-  DerivativeResult out{entry.number("value"), entry.number("uncertainty"), entry.text("method"),
+  DerivativeResult out{entry.number("value"), entry.half_width("uncertainty"), entry.text("method"),
                        entry.boolean("converged")};
-  if (entry.has("parts")) out.parts = values_of(entry.object("parts"));
+  if (entry.has("parts")) {
+    const Node parts = entry.object("parts");
+    for (const auto& source : parts.keys()) out.parts.emplace_back(source, parts.half_width(source));
+  }
   const auto is_negative = [](const auto& part) { return part.second < 0; };
   if (out.uncertainty < 0 || std::ranges::any_of(out.parts, is_negative))
     entry.fail("has a negative uncertainty");

@@ -22,7 +22,7 @@ class Derivatives:
     mach: float
     method: str
     center: float
-    uncertainty: dict[str, float]  # by name, those that the run gives
+    uncertainty: dict[str, float]  # by name, those that the run gives; NaN where it knows none
     Cm: list[float]
     CN_alpha: float
     Cm_alpha: float
@@ -40,7 +40,7 @@ class Derivatives:
             method=found["Cm_alphadot"]["method"],
             center=item["center"][0] / item["reference"]["length"],
             Cm=item["loads"]["Cm"],
-            uncertainty={name: entry["uncertainty"] for name, entry in found.items()},
+            uncertainty={name: math.nan if entry["uncertainty"] is None else entry["uncertainty"] for name, entry in found.items()},
             **{name: found[name]["value"] if name in found else math.nan for name in NAMES},
         )
 

@@ -29,8 +29,9 @@ inline Estimate operator-(const Estimate& a) {
 inline Estimate operator-(const Estimate& a, const Estimate& b) {
   return a + -b;
 }
+/// None of what is unknown, an infinite uncertainty, is known.
 inline Estimate operator*(Real s, const Estimate& a) {
-  return {s * a.value, std::abs(s) * a.uncertainty};
+  return {s * a.value, s == 0 ? 0 : std::abs(s) * a.uncertainty};
 }
 
 }  // namespace alphadot

@@ -122,19 +122,8 @@ RunStatus adjoint_verb(const CaseArguments& arguments, const std::vector<std::st
     linear_cpu = timer.cpu();
     return is_done ? marched : RunStatus::interrupted;
   });
-  Result result = record.result(status, rows);
-  result.performance.linear_cpu_s = comm.sum(linear_cpu);
-  if (!rows.empty())
-    comm.on_root([&] {
-      replace_file_with(record.folder() + "/adjoint.csv",
-                        derivative_csv(rows, record.table_head(result.status, rows)));
-    });
-  record.write(result);
-  record.print(result, rows);
-  spdlog::info("of these, steady state {:.1f} s of processor, adjoints {:.1f} s",
-               result.performance.steady_cpu_s, result.performance.linear_cpu_s);
-  record.print_end(result);
-  return result.status;
+  return run.conclude(status, rows, linear_cpu, "adjoints", "adjoint.csv",
+                      [&](const TableHead& head) { return derivative_csv(rows, head); });
 }
 
 }  // namespace alphadot

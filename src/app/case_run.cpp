@@ -8,6 +8,7 @@
 #include "app/watchdog.hpp"
 #include "core/error.hpp"
 #include "core/log.hpp"
+#include "io/files.hpp"
 
 namespace alphadot {
 
@@ -123,6 +124,23 @@ void CaseRun::check_not_in_motion() const {
     throw InputError(
         folder_, 0, "the checkpoint to go on from was made in a motion",
         "name that of the steady state with --restart FILE, or begin in another folder with --out DIR");
+}
+
+RunStatus CaseRun::conclude(RunStatus end, std::span<const TableRow> rows, Real linear_cpu,
+                            std::string_view solves, const std::string& table,
+                            const std::function<std::string(const TableHead&)>& csv) {
+  Result result = record_.result(end, rows);
+  result.performance.linear_cpu_s = communicator().sum(linear_cpu);
+  if (!rows.empty())
+    communicator().on_root([&] {
+      replace_file_with(record_.folder() + "/" + table, csv(record_.table_head(result.status, rows)));
+    });
+  record_.write(result);
+  record_.print(result, rows);
+  spdlog::info("of these, steady state {:.1f} s of processor, {} {:.1f} s", result.performance.steady_cpu_s,
+               solves, result.performance.linear_cpu_s);
+  record_.print_end(result);
+  return result.status;
 }
 
 }  // namespace alphadot

@@ -3,7 +3,9 @@
 
 #include <functional>
 #include <memory>
+#include <span>
 #include <string>
+#include <string_view>
 
 #include "app/checkpoints.hpp"
 #include "app/flow_checkpoint.hpp"
@@ -40,6 +42,11 @@ class CaseRun {
   /// unless that was interrupted, does `about_it`; it is given the status of the march and returns that of
   /// the whole. A flow that diverges, in either, is reported. Collective.
   RunStatus carry_out(const std::function<RunStatus(RunStatus)>& about_it);
+  /// Ends a run of linear solves, `solves` by name, which took `linear_cpu` on this rank: the rows and, where
+  /// there are any, the file `table` of the text that `csv` makes below its head; result, report, status.
+  /// Collective.
+  RunStatus conclude(RunStatus end, std::span<const TableRow> rows, Real linear_cpu, std::string_view solves,
+                     const std::string& table, const std::function<std::string(const TableHead&)>& csv);
   /// Derivatives are about a steady state, which a checkpoint made in a motion no longer has: throws
   /// InputError.
   void check_not_in_motion() const;

@@ -10,9 +10,7 @@
 #include "app/load_case.hpp"
 #include "app/stop.hpp"
 #include "app/verbs.hpp"
-#include "core/log.hpp"
 #include "core/timer.hpp"
-#include "io/files.hpp"
 
 namespace alphadot {
 
@@ -41,20 +39,8 @@ RunStatus frequency_verb(const CaseArguments& arguments, std::vector<Real> frequ
     linear_cpu = timer.cpu();
     return is_done ? marched : RunStatus::interrupted;
   });
-  const auto derivatives = table_rows(rows);
-  Result result = record.result(status, derivatives);
-  result.performance.linear_cpu_s = comm.sum(linear_cpu);
-  if (!rows.empty())
-    comm.on_root([&] {
-      replace_file_with(record.folder() + "/frequency.csv",
-                        frequency_csv(rows, record.table_head(result.status, derivatives)));
-    });
-  record.write(result);
-  record.print(result, derivatives);
-  spdlog::info("of these, steady state {:.1f} s of processor, linear solves {:.1f} s",
-               result.performance.steady_cpu_s, result.performance.linear_cpu_s);
-  record.print_end(result);
-  return result.status;
+  return run.conclude(status, table_rows(rows), linear_cpu, "linear solves", "frequency.csv",
+                      [&](const TableHead& head) { return frequency_csv(rows, head); });
 }
 
 }  // namespace alphadot

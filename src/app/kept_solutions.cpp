@@ -135,6 +135,25 @@ const CheckpointHead* head_of_solutions(const CaseRun& run) {
   return same ? restart : nullptr;
 }
 
+/// Reads the fields of so many solutions.
+void take(CaseRun& run, const std::vector<CheckpointField>& fields, std::size_t solutions, const char* what) {
+  run.checkpoints().read(fields);
+  if (solutions > 0) spdlog::info("{} {} are taken from the checkpoint", solutions, what);
+}
+
+/// Writes a checkpoint of solutions by a key, each with its field.
+template <class Solutions, class EntryOf>
+void keep_with_fields(CaseRun& run, const char* phase, Solutions& solutions, const EntryOf& entry_of_key) {
+  auto head = run.contents().steady_head(phase);
+  std::vector<CheckpointField> fields;
+  for (auto& [key, solution] : solutions) {
+    const std::string entry = entry_of_key(key);
+    head.numbers[entry] = numbers_of(solution);
+    fields.push_back({entry, solution.field});
+  }
+  run.contents().save(head, std::move(fields));
+}
+
 }  // namespace
 
 LinearSolves::LinearSolves(CaseRun& run, std::function<void()> save)
@@ -161,8 +180,7 @@ Responses kept_responses(CaseRun& run) {
       auto& response = out[key] = response_of(variable, numbers->second, cells);
       fields.push_back({entry_of(key), response.field});
     }
-  run.checkpoints().read(fields);
-  if (!fields.empty()) spdlog::info("{} linear solves are taken from the checkpoint", fields.size());
+  take(run, fields, fields.size(), "linear solves");
   return out;
 }
 
@@ -178,8 +196,7 @@ Adjoints kept_adjoints(CaseRun& run) {
     auto& adjoint = out[name] = adjoint_of(name, numbers, cells);
     fields.push_back({entry, adjoint.field});
   }
-  run.checkpoints().read(fields);
-  if (!fields.empty()) spdlog::info("{} adjoints are taken from the checkpoint", fields.size());
+  take(run, fields, fields.size(), "adjoints");
   return out;
 }
 
@@ -195,17 +212,15 @@ Oscillations kept_oscillations(CaseRun& run) {
       if (numbers == restart->numbers.end()) break;
       auto [k, response] = oscillation_of(numbers->second);
       out.put_back({k, variable}, std::move(response));
-      out.latest()[variable].k = k;
     }
-    const auto latest = out.latest().find(variable);
-    if (latest == out.latest().end()) continue;
-    for (auto* part : {&latest->second.real, &latest->second.imaginary}) part->resize(cells);
-    fields.push_back({entry_of(variable, "real"), latest->second.real});
-    fields.push_back({entry_of(variable, "imaginary"), latest->second.imaginary});
+    const auto k = restart->numbers.find(entry_of(variable, "latest"));
+    if (k == restart->numbers.end()) continue;
+    auto& latest = out.latest()[variable];
+    latest = {k->second.at(0), std::vector<Primitive<Real>>(cells), std::vector<Primitive<Real>>(cells)};
+    fields.push_back({entry_of(variable, "real"), latest.real});
+    fields.push_back({entry_of(variable, "imaginary"), latest.imaginary});
   }
-  run.checkpoints().read(fields);
-  if (!out.solved().empty())
-    spdlog::info("{} linear solves are taken from the checkpoint", out.solved().size());
+  take(run, fields, out.solved().size(), "linear solves");
   return out;
 }
 
@@ -216,6 +231,7 @@ void keep(CaseRun& run, Oscillations& oscillations) {
     head.numbers[entry_of(key.variable, std::to_string(count[key.variable]++))] = numbers_of(key.k, response);
   std::vector<CheckpointField> fields;
   for (auto& [variable, latest] : oscillations.latest()) {
+    head.numbers[entry_of(variable, "latest")] = {latest.k};
     fields.push_back({entry_of(variable, "real"), latest.real});
     fields.push_back({entry_of(variable, "imaginary"), latest.imaginary});
   }
@@ -223,24 +239,12 @@ void keep(CaseRun& run, Oscillations& oscillations) {
 }
 
 void keep(CaseRun& run, Responses& responses) {
-  auto head = run.contents().steady_head("derivatives");
-  std::vector<CheckpointField> fields;
-  for (auto& [key, response] : responses) {
-    head.numbers[entry_of(key)] = numbers_of(response);
-    fields.push_back({entry_of(key), response.field});
-  }
-  run.contents().save(head, std::move(fields));
+  keep_with_fields(run, "derivatives", responses, [](ResponseKey key) { return entry_of(key); });
 }
 
 void keep(CaseRun& run, Adjoints& adjoints) {
-  auto head = run.contents().steady_head("adjoint");
-  std::vector<CheckpointField> fields;
-  for (auto& [name, adjoint] : adjoints) {
-    const std::string entry = std::string(adjoint_prefix) + name;
-    head.numbers[entry] = numbers_of(adjoint);
-    fields.push_back({entry, adjoint.field});
-  }
-  run.contents().save(head, std::move(fields));
+  keep_with_fields(run, "adjoint", adjoints,
+                   [](const std::string& name) { return std::string(adjoint_prefix) + name; });
 }
 
 }  // namespace alphadot

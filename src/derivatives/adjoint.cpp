@@ -6,11 +6,9 @@
 #include <utility>
 
 #include "derivatives/block_solve.hpp"
-#include "derivatives/free_linearisation.hpp"
 #include "derivatives/mass_term.hpp"
 #include "derivatives/remaining_error.hpp"
 #include "linear/shape_transpose.hpp"
-#include "space/influence.hpp"
 #include "space/wave_speed.hpp"
 
 namespace alphadot {
@@ -117,9 +115,8 @@ Adjoint adjoint_of(const AdjointProblem& problem, Real orders, Field field, Bloc
   std::vector<Real> sensitivity;  // dJ/dc = J_c - psi . R_c
   for (const Real product : record.functionals.back()) sensitivity.push_back(-product);
   const auto scales = scales_of(sensitivity, body_size);
-  auto error = remaining_error(record.norms, record.functionals, scales, record.drop(), orders);
-  for (std::size_t i = 0; i < error.size(); ++i)
-    if (scales[i] > 0) error[i] += problem.rate_error * scales[i];
+  const auto error =
+      remaining_error(record.norms, record.functionals, scales, record.drop(), orders, problem.rate_error);
   return {.name = problem.name,
           .field = std::move(field),
           .sensitivity = change_of(sensitivity),
@@ -135,26 +132,21 @@ Adjoint adjoint_of(const AdjointProblem& problem, Real orders, Field field, Bloc
 
 AdjointSolver::AdjointSolver(ImplicitIteration& iteration, const Conditions<Real>& conditions,
                              const DerivativeSettings& settings, std::function<bool()> go_on)
-    : iteration_(iteration),
-      linearisation_(linearise_with_free_limiter(iteration, conditions)),
-      settings_(settings),
-      go_on_(std::move(go_on)),
-      body_size_(
-          Influence(iteration.discretization(), velocity(conditions.free_stream), iteration.communicator())
-              .body_size()) {}
+    : basis_(iteration, conditions, settings, std::move(go_on)) {}
 
 std::vector<Adjoint> AdjointSolver::solve(const std::vector<AdjointProblem>& problems) {
   std::vector<Adjoint> out;
   const auto solve = [&]<int N>(std::span<const AdjointProblem> group, std::integral_constant<int, N>) {
     std::array<BlockProblem, N> asked;
-    for (std::size_t k = 0; k < N; ++k) asked[k] = {"the adjoint of " + group[k].name, settings_.orders};
-    AdjointOperator<N> transpose(iteration_, linearisation_, group, residual_changes_);
-    BlockSolve<N, AdjointOperator<N>> way(transpose, iteration_, linearisation_.conditions(), asked,
-                                          settings_, go_on_);
+    for (std::size_t k = 0; k < N; ++k)
+      asked[k] = {"the adjoint of " + group[k].name, basis_.settings.orders};
+    AdjointOperator<N> transpose(basis_.iteration, basis_.linearisation, group, residual_changes_);
+    BlockSolve<N, AdjointOperator<N>> way(transpose, basis_.iteration, basis_.linearisation.conditions(),
+                                          asked, basis_.settings, basis_.go_on);
     if (!way.solve()) return false;
     for (std::size_t k = 0; k < N; ++k)
       out.push_back(adjoint_of(group[k], asked[k].orders, std::move(way.field(k)), way.record(k),
-                               way.iterations(), body_size_, iteration_.communicator()));
+                               way.iterations(), basis_.body_size, basis_.iteration.communicator()));
     return true;
   };
   if (!in_groups(std::span(problems), solve)) return {};
@@ -164,7 +156,8 @@ std::vector<Adjoint> AdjointSolver::solve(const std::vector<AdjointProblem>& pro
 std::vector<Vec3> AdjointSolver::by_points(const Adjoint& adjoint, std::span<const Load> weights) {
   Field minus = adjoint.field;
   for (auto& psi : minus) psi = Real(-1) * psi;
-  return shape_transpose(linearisation_, iteration_.flow(), minus, weights, iteration_.moment_center());
+  return shape_transpose(basis_.linearisation, basis_.iteration.flow(), minus, weights,
+                         basis_.iteration.moment_center());
 }
 
 }  // namespace alphadot

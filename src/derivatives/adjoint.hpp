@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "derivatives/settings.hpp"
+#include "derivatives/derivative_basis.hpp"
 #include "linear/tangent_transpose.hpp"
 #include "march/implicit_iteration.hpp"
 
@@ -63,11 +63,7 @@ class AdjointSolver {
   std::vector<Vec3> by_points(const Adjoint& adjoint, std::span<const Load> weights);
 
  private:
-  ImplicitIteration& iteration_;
-  Linearisation linearisation_;
-  DerivativeSettings settings_;
-  std::function<bool()> go_on_;
-  Real body_size_;
+  DerivativeBasis basis_;
   std::vector<std::span<const Conserved<Real>>> residual_changes_;
 };
 

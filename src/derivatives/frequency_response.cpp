@@ -4,12 +4,10 @@
 #include <utility>
 
 #include "derivatives/block_solve.hpp"
-#include "derivatives/free_linearisation.hpp"
 #include "derivatives/loads.hpp"
 #include "derivatives/mass_term.hpp"
 #include "derivatives/remaining_error.hpp"
 #include "linear/cell_scaling.hpp"
-#include "space/influence.hpp"
 
 namespace alphadot {
 
@@ -124,25 +122,19 @@ FrequencyResponse response_of(Real orders, std::vector<Primitive<Real>> field, B
 
 FrequencySolver::FrequencySolver(ImplicitIteration& iteration, const Conditions<Real>& conditions,
                                  const DerivativeSettings& settings, std::function<bool()> go_on)
-    : iteration_(iteration),
-      linearisation_(linearise_with_free_limiter(iteration, conditions)),
-      settings_(settings),
-      go_on_(std::move(go_on)),
-      body_size_(
-          Influence(iteration.discretization(), velocity(conditions.free_stream), iteration.communicator())
-              .body_size()) {
-  settings_.method = SensitivityMethod::gmres;
+    : basis_(iteration, conditions, settings, std::move(go_on)) {
+  basis_.settings.method = SensitivityMethod::gmres;
 }
 
 bool FrequencySolver::solve(const FrequencyProblem& problem, FrequencyResponse& out) {
-  FrequencyOperator shifted(iteration_, linearisation_, problem);
+  FrequencyOperator shifted(basis_.iteration, basis_.linearisation, problem);
   BlockSolve<1, FrequencyOperator> way(
-      shifted, iteration_, linearisation_.conditions(),
-      {BlockProblem{problem.name, settings_.orders, problem.guess, shifted.source_norm()}}, settings_,
-      go_on_);
+      shifted, basis_.iteration, basis_.linearisation.conditions(),
+      {BlockProblem{problem.name, basis_.settings.orders, problem.guess, shifted.source_norm()}},
+      basis_.settings, basis_.go_on);
   if (!way.solve()) return false;
-  out = response_of(settings_.orders, std::move(way.field(0)), way.record(0), way.iterations(), body_size_,
-                    iteration_.communicator());
+  out = response_of(basis_.settings.orders, std::move(way.field(0)), way.record(0), way.iterations(),
+                    basis_.body_size, basis_.iteration.communicator());
   return true;
 }
 

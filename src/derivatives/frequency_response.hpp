@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "derivatives/settings.hpp"
+#include "derivatives/derivative_basis.hpp"
 #include "linear/tangent.hpp"
 #include "march/implicit_iteration.hpp"
 
@@ -48,11 +48,7 @@ class FrequencySolver {
   bool solve(const FrequencyProblem& problem, FrequencyResponse& out);
 
  private:
-  ImplicitIteration& iteration_;
-  Linearisation linearisation_;
-  DerivativeSettings settings_;
-  std::function<bool()> go_on_;
-  Real body_size_;
+  DerivativeBasis basis_;
 };
 
 }  // namespace alphadot

@@ -21,7 +21,8 @@ Real safety(int samples) {
 }  // namespace
 
 std::vector<Real> remaining_error(std::span<const Real> norms, std::span<const std::vector<Real>> functionals,
-                                  std::span<const Real> scales, Real relative_residual, Real orders) {
+                                  std::span<const Real> scales, Real relative_residual, Real orders,
+                                  Real inherited) {
   constexpr Real unknown = std::numeric_limits<Real>::infinity(), too_little = 0.01;
   const Real last = norms.back();
   const auto& latest = functionals.back();
@@ -39,9 +40,13 @@ std::vector<Real> remaining_error(std::span<const Real> norms, std::span<const s
   Real most = 0;
   for (std::size_t i = 0; i < latest.size(); ++i)
     if (scales[i] > 0) most = std::max(most, sensitivity[i] / scales[i]);
-  for (std::size_t i = 0; i < latest.size(); ++i)
-    out[i] =
-        samples == 0 ? 0 : safety(samples) * last * std::max(sensitivity[i], of_others * most * scales[i]);
+  for (std::size_t i = 0; i < latest.size(); ++i) {
+    if (samples == 0)
+      out[i] = 0;
+    else
+      out[i] = safety(samples) * last * std::max(sensitivity[i], of_others * most * scales[i]);
+    if (scales[i] > 0) out[i] += inherited * scales[i];
+  }
   return out;
 }
 

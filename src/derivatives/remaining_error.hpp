@@ -15,8 +15,10 @@ namespace alphadot {
 /// are. Each functional has a scale, what is a lot in its unit: by it, none is taken to be much less
 /// sensitive than the most sensitive one, whatever its own samples say. Infinite for all when the residual
 /// has dropped by less than two decades without being asked for no more than `orders`.
+/// To all comes the share `inherited` of the scale, which the problem itself is wrong by.
 std::vector<Real> remaining_error(std::span<const Real> norms, std::span<const std::vector<Real>> functionals,
-                                  std::span<const Real> scales, Real relative_residual, Real orders);
+                                  std::span<const Real> scales, Real relative_residual, Real orders,
+                                  Real inherited = 0);
 
 /// Scales of the components of loads, the same for all: the size of `total` and, for moments, at least what
 /// its force does on an arm of a quarter of the body's size.

@@ -4,12 +4,10 @@
 #include <utility>
 
 #include "derivatives/block_solve.hpp"
-#include "derivatives/free_linearisation.hpp"
 #include "derivatives/loads.hpp"
 #include "derivatives/mass_term.hpp"
 #include "derivatives/remaining_error.hpp"
 #include "linear/cell_scaling.hpp"
-#include "space/influence.hpp"
 
 namespace alphadot {
 
@@ -71,9 +69,8 @@ Sensitivity sensitivity_of(const SensitivityProblem& problem, Real orders, std::
   out.relative_residual = record.drop();
   out.iterations = iterations;
   const auto scales = scales_of(out.total, body_size, 1);
-  auto error = remaining_error(record.norms, record.functionals, scales, out.relative_residual, orders);
-  for (std::size_t i = 0; i < error.size(); ++i)
-    if (scales[i] > 0) error[i] += problem.rate_error * scales[i];
+  const auto error = remaining_error(record.norms, record.functionals, scales, out.relative_residual, orders,
+                                     problem.rate_error);
   out.relative_error = relative_error(error, scales);
   out.total_error = loads_of(error).front();
   return out;
@@ -83,27 +80,21 @@ Sensitivity sensitivity_of(const SensitivityProblem& problem, Real orders, std::
 
 SensitivitySolver::SensitivitySolver(ImplicitIteration& iteration, const Conditions<Real>& conditions,
                                      const DerivativeSettings& settings, std::function<bool()> go_on)
-    : iteration_(iteration),
-      linearisation_(linearise_with_free_limiter(iteration, conditions)),
-      settings_(settings),
-      go_on_(std::move(go_on)),
-      body_size_(
-          Influence(iteration.discretization(), velocity(conditions.free_stream), iteration.communicator())
-              .body_size()) {}
+    : basis_(iteration, conditions, settings, std::move(go_on)) {}
 
 std::vector<Sensitivity> SensitivitySolver::solve(const std::vector<SensitivityProblem>& problems) {
   std::vector<Sensitivity> out;
   const auto solve = [&]<int N>(std::span<const SensitivityProblem> group, std::integral_constant<int, N>) {
     std::array<BlockProblem, N> asked;
     for (std::size_t k = 0; k < N; ++k)
-      asked[k] = {group[k].name, settings_.orders + group[k].further_orders, group[k].guess};
-    ForwardOperator<N> tangent(iteration_, linearisation_, group);
-    BlockSolve<N, ForwardOperator<N>> way(tangent, iteration_, linearisation_.conditions(), asked, settings_,
-                                          go_on_);
+      asked[k] = {group[k].name, basis_.settings.orders + group[k].further_orders, group[k].guess};
+    ForwardOperator<N> tangent(basis_.iteration, basis_.linearisation, group);
+    BlockSolve<N, ForwardOperator<N>> way(tangent, basis_.iteration, basis_.linearisation.conditions(), asked,
+                                          basis_.settings, basis_.go_on);
     if (!way.solve()) return false;
     for (std::size_t k = 0; k < N; ++k)
       out.push_back(sensitivity_of(group[k], asked[k].orders, std::move(way.field(k)), way.record(k),
-                                   way.iterations(), body_size_, iteration_.communicator()));
+                                   way.iterations(), basis_.body_size, basis_.iteration.communicator()));
     return true;
   };
   if (!in_groups(std::span(problems), solve)) return {};

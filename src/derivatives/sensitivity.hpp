@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "derivatives/settings.hpp"
+#include "derivatives/derivative_basis.hpp"
 #include "linear/tangent.hpp"
 #include "march/implicit_iteration.hpp"
 
@@ -51,18 +51,14 @@ class SensitivitySolver {
                     const DerivativeSettings& settings, std::function<bool()> go_on = {});
 
   /// From now on the problems leave the limiter's reaction out: its factors stay those of the steady flow.
-  void hold_limiter() { linearisation_.hold_limiter(); }
+  void hold_limiter() { basis_.linearisation.hold_limiter(); }
 
   /// Nothing when `go_on` said no. Throws DivergedError when a march grows: the steady state then hides an
   /// unstable cell. Collective.
   std::vector<Sensitivity> solve(const std::vector<SensitivityProblem>& problems);
 
  private:
-  ImplicitIteration& iteration_;
-  Linearisation linearisation_;
-  DerivativeSettings settings_;
-  std::function<bool()> go_on_;
-  Real body_size_;
+  DerivativeBasis basis_;
 };
 
 }  // namespace alphadot

@@ -208,6 +208,18 @@ class Derive(unittest.TestCase):
         loose = {name.split("_")[1] for name, entry in item["derivatives"].items() if not entry["converged"]}
         self.assertEqual(loose, {"alpha", "q"})  # q about another centre rests on alpha
 
+    def test_unknown_uncertainty(self) -> None:
+        """Null, as a cut solve leaves it: unknown stays so for all that rests on it, and for nothing else."""
+        derivatives = json.loads(result_text())["derivatives"]
+        for name, entry in derivatives.items():
+            if name.endswith("_alpha"):
+                entry |= {"uncertainty": None, "converged": False} | ({"parts": dict.fromkeys(entry["parts"])} if "parts" in entry else {})
+        self.write("result.json", result_text(status="not_converged", derivatives=derivatives))
+        (item,) = self.list_of("result.json", "--center", 2)
+        unknown = {name.split("_", 1)[1] for name, entry in item["derivatives"].items() if entry["uncertainty"] is None}
+        self.assertEqual(unknown, {"alpha", "q"})  # q about another centre rests on alpha
+        self.assertIn("± inf", self.derive("result.json").out)
+
     def test_refused_results(self) -> None:
         whole = result_text()
         lines = whole.splitlines()

@@ -74,6 +74,15 @@ class Wake(Case):
                     self.assertLessEqual(abs(entry["value"] - slope), entry["uncertainty"] + curvature)
                     self.assertLess(entry["uncertainty"], 5e-3)
 
+    def test_what_the_linear_residual_leaves_is_in_the_uncertainty(self) -> None:
+        """The residual that is left is that of the wake's few cells, which earlier ones hardly were; by the same solves nine decades down."""
+        exact = self.result("derivatives", STEADY | {"derivatives.orders": 9})["derivatives"]
+        for orders in (1, 2, 3):
+            found = self.result("derivatives", STEADY | {"derivatives.orders": orders})["derivatives"]
+            for name, entry in found.items():
+                with self.subTest(orders=orders, name=name):
+                    self.assertLessEqual(abs(entry["value"] - exact[name]["value"]), entry["uncertainty"] + exact[name]["uncertainty"])
+
     def test_a_march_that_stalls(self) -> None:
         """It says so, and either comes to rest with a limiter that it names, or does not call itself converged."""
         found = self.result("run", {})

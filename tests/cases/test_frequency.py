@@ -43,7 +43,6 @@ class Frequency(ExactCase):
                     complex(at(f"{name}_alpha")["value"], k * at(f"{name}_alphadot")["value"])
                     for at in (lambda entry, k=k: response[f"{entry}, k = {k:g}"], plunge.__getitem__)
                 )
-                # 0.2 % of the modulus and 0.2 degrees; in Cm, a small difference, of that of CN times a length.
                 self.assert_close(f"{name} at k = {k}", abs(load), abs(linear_load), 0.002)
                 self.assertLess(abs(math.degrees(cmath.phase(load / linear_load))), 0.2, f"{name} at k = {k}")
 

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <string_view>
 
 #include "derivatives/sensitivity.hpp"
 #include "support/ramp.hpp"
@@ -96,7 +97,9 @@ TEST_F(AdjointTest, SaysHowFarTheSensitivityMayBe) {
                                   absolute(problem.change.rotation)};
       const Real error = product(rough[i].sensitivity_error, size);
       EXPECT_LT(std::abs(value - product(exact[i].sensitivity, problem.change)), error) << problem.name;
-      EXPECT_LT(error, 0.15 * std::abs(value)) << problem.name;
+      // The sensitivity to Mach number is a small one here, and no surer than those to other velocities.
+      EXPECT_LT(error, (std::string_view(problem.name) == "mach" ? 0.15 : 0.05) * std::abs(value))
+          << problem.name;
     }
 }
 

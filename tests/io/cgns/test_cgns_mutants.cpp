@@ -69,7 +69,8 @@ TEST(CgnsMutants, SoundFilesOfTheSmallestNumbersStayWithinTheLimit) {
 
 /// Each mutant in a process of its own, as the converter is: after an error the CGNS library gives errors for
 /// sound files too.
-void expect_meshes_or_errors(const std::string& path, std::size_t share) {
+/// More than `fewest` are to be read: as few as that would be no test of the reading.
+void expect_meshes_or_errors(const std::string& path, std::size_t share, int fewest) {
   std::ifstream in(path, std::ios::binary);
   const std::string content(std::istreambuf_iterator<char>(in), {});
   testing_support::Random random(20240229);
@@ -89,7 +90,7 @@ void expect_meshes_or_errors(const std::string& path, std::size_t share) {
     meshes += ending == Ending::mesh;
     refused += ending == Ending::refused;
   }
-  EXPECT_GT(meshes, 5);
+  EXPECT_GT(meshes, fewest);
   EXPECT_GT(refused, 800);
 }
 
@@ -103,7 +104,7 @@ TEST(CgnsMutants, GiveAMeshOrAnInputError) {
     file.add_section("Volume", CGNS_ENUMV(TETRA_4), mesh.cells);
     for (const auto& patch : mesh.patches) file.add_section(patch.name, CGNS_ENUMV(TRI_3), patch.triangles);
   }
-  expect_meshes_or_errors(path, 2);
+  expect_meshes_or_errors(path, 2, 20);
 }
 
 /// As of the other readers, a hexahedron makes tetrahedra of twelve times its bytes at most.
@@ -116,7 +117,7 @@ TEST(CgnsMutants, OfMixedElementsGiveAMeshOrAnInputError) {
       testing_support::mixed_mesh(
           {.cubes = {2, 2, 1}, .columns = {Column::hexahedra, Column::prisms, Column::middles}, .seed = 5}),
       {.is_mixed = true, .has_families = true});
-  expect_meshes_or_errors(path, 12);
+  expect_meshes_or_errors(path, 12, 5);
 }
 
 }  // namespace
