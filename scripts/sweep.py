@@ -28,6 +28,18 @@ A sweep file:
   mach = 2.5
   set."unsteady.cycles" = 2.5           # any key of the case
 
+Axes: mach, alpha, beta, or alpha_t and phi (total incidence, and the roll angle of the cross-flow from below towards starboard), mesh,
+method. A number, a list, or a range, both ends in it: {from = 0, to = 10, step = 2.5} or {from = 0, to = 10, count = 5}. Rows of a
+CSV file whose first line names axes: matrix = "points.csv". symmetry = ["y", "z"] leaves out what is the mirror image of another run.
+The case may be a description or a design that `alphadot mesh` takes; mesh_mach = [0.5, 2] makes one mesh for that range. Of a
+description panels turn, each combination in a mesh of its own:
+
+  [controls]
+  pitch = {canard = [1, 1, -1, -1]}     # degrees of each panel of the set, or of all, per degree of the control
+  [[runs]]
+  mach = {from = 1.5, to = 3, step = 0.5}
+  deflection.pitch = [0, 5]
+
 Exit codes: 0 every run is done, 1 some failed or an error, 2 wrong command line, 3 interrupted with work left, 5 every run came to
 its end, but some are not converged.
 Needs Debian's python3-numpy, python3-h5py and python3-matplotlib (hence /usr/bin/python3).

@@ -6,6 +6,7 @@ import shutil
 import sys
 from argparse import Namespace
 from contextlib import AbstractContextManager
+from math import prod
 
 from sweep import cluster
 from sweep.lock import Locked, locked
@@ -14,6 +15,7 @@ from sweep.plan import EXTENSIONS, Sweep, SweepError, read_sweep, read_toml
 from sweep.runner import Runner, find_program
 from sweep.state import END, RESULT, Phase, checkpoints, read_state
 from sweep.status import states, status_text
+from sweep.text import toml_key, toml_value
 
 SWEEP_LOCK = "sweep.lock"
 ENDED = {Phase.DONE, Phase.SHORT}
@@ -84,7 +86,7 @@ def extend(sweep: Sweep, arguments: Namespace) -> int:
         lines = ["# Added by sweep.py extend; edit or delete as you like."]
         lines += [f"cycles = {cycles}"] if cycles else []
         for block in blocks:
-            lines += ["", "[[runs]]", *(f"{key} = {toml_value(value)}" for key, value in block.items())]
+            lines += ["", "[[runs]]", *(f"{toml_key(key)} = {toml_value(value)}" for key, value in block.items())]
         old = file.read_text() if file.exists() else None
         file.write_text("\n".join(lines) + "\n")
         try:
@@ -97,20 +99,22 @@ def extend(sweep: Sweep, arguments: Namespace) -> int:
 
 
 def others(sweep: Sweep, method: str) -> dict:
-    """Angles of attack and meshes that a method has in the sweep."""
+    """Angles, deflections and meshes that a method has in the sweep: what [[runs]] of it must say. Raises SweepError when no lists
+    multiply to them."""
     alike = [run for run in sweep.runs if run.method == method]
     if not alike:
         return {}
-    meshes = list(dict.fromkeys(run.mesh for run in alike))
-    return {"alpha": list(dict.fromkeys(run.alpha for run in alike))} | ({"mesh": meshes} if any(meshes) else {})
-
-
-def toml_value(value: object) -> str:
-    if isinstance(value, list):
-        return "[" + ", ".join(map(toml_value, value)) + "]"
-    if isinstance(value, dict):
-        return "{ " + ", ".join(f'"{key}" = {toml_value(item)}' for key, item in value.items()) + " }"
-    return f'"{value}"' if isinstance(value, str) else str(value).lower() if isinstance(value, bool) else str(value)
+    distinct = lambda values: list(dict.fromkeys(values))
+    out = {"alpha": distinct(run.alpha for run in alike)}
+    out |= {"beta": distinct(run.beta for run in alike)} if any(run.beta for run in alike) else {}
+    out |= {"mesh": distinct(run.mesh for run in alike)} if any(run.mesh for run in alike) else {}
+    controls = distinct(name for run in alike for name in run.deflections)
+    turned = {name: distinct(run.deflections.get(name, 0.0) for run in alike) for name in controls}
+    points = distinct((run.alpha, run.beta, run.mesh, tuple(run.deflections.items())) for run in alike)
+    product = prod(len(values) for values in (*out.values(), *turned.values()))
+    if len(points) != product:
+        raise SweepError(f"{sweep.file}: the runs of {method} are no product of lists: add the Mach numbers in the sweep file")
+    return out | ({"deflection": turned} if turned else {})
 
 
 def retry(sweep: Sweep, arguments: Namespace) -> int:

@@ -2,22 +2,27 @@
 
 from __future__ import annotations
 
-import itertools
+import hashlib
 import json
+import os
 import tomllib
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from functools import lru_cache
 from pathlib import Path
+
+from sweep.axes import BODY_ANGLES, TOTAL_ANGLES, is_number, matrix, numbers, points
+from sweep.errors import SweepError
 
 Value = bool | int | float | str | list
 DERIVATIVES, STEADY = "derivatives", "steady"  # methods; any other is a kind of motion
-BLOCK_KEYS = {"label", "case", "mesh", "method", "mach", "alpha", "ranks", "set"}
-SWEEP_KEYS = BLOCK_KEYS - {"label"} | {"title", "folder", "runs"}
+BLOCK_KEYS = {
+    "label", "case", "mesh", "mesh_mach", "method", "mach", "alpha", "beta", "alpha_t", "phi", "deflection", "matrix", "ranks", "set"
+}  # fmt: skip
+SWEEP_KEYS = BLOCK_KEYS - {"label"} | {"title", "folder", "runs", "controls", "symmetry", "altitude", "unit", "mass"}
 WITHOUT_EFFECT = ("checkpoint", "output")  # tables of the case that change no number
 EXTENSIONS = "extensions.toml"  # in the folder of the sweep: what `extend` has added
-
-
-class SweepError(Exception):
-    """A mistake of the user: what is wrong, where, and what to do."""
+DESIGNS = {".ork", ".cdx1", ".step", ".stp", ".iges", ".igs", ".brep", ".stl", ".obj", ".tri"}  # that `alphadot mesh` meshes
+UNITS = {"m": 1.0, "cm": 0.01, "mm": 0.001, "in": 0.0254, "ft": 0.3048}  # in metres
 
 
 @dataclass(frozen=True)
@@ -26,14 +31,18 @@ class Run:
 
     name: str
     folder: Path
-    case: Path
+    case: Path  # a case file, or a description or design that is meshed first
     label: str  # first word of the name: the method, unless the sweep file gives another
     method: str
     mach: float
     alpha: float
+    beta: float
     mesh: str  # a level such as "medium", a file, or "" for the mesh that the case names
     ranks: int
     settings: dict[str, Value]  # keys of the case that are replaced; the mesh file is not among them
+    mesh_mach: tuple[float, float] | None = None  # what a description is meshed for; None: what it says itself
+    deflections: dict[str, float] = field(default_factory=dict)  # of controls, degrees
+    panels: dict[str, Value] = field(default_factory=dict)  # the same of sets of fins: a number, or one a panel
 
     @property
     def verb(self) -> str:
@@ -44,13 +53,21 @@ class Run:
         """Does it march in time?"""
         return self.method not in (DERIVATIVES, STEADY)
 
+    @property
+    def is_described(self) -> bool:
+        """Is there no mesh before `alphadot mesh` makes it?"""
+        content = case_content(self.case)
+        return self.case.suffix.lower() in DESIGNS or (isinstance(content, dict) and ("body" in content or "surface" in content))
+
     def identity(self) -> dict:
         """What decides the numbers that come out: a result counts only for the identity it was computed with."""
         case = case_content(self.case)
         if isinstance(case, dict):
             case = {table: keys for table, keys in case.items() if table not in WITHOUT_EFFECT}
         settings = {key: value for key, value in self.settings.items() if key.split(".")[0] not in WITHOUT_EFFECT}
-        return {"verb": self.verb, "case": case, "mesh": self.mesh, "settings": settings}
+        more = {"mesh_mach": list(self.mesh_mach)} if self.mesh_mach else {}
+        more |= {"panels": self.panels} if self.panels else {}
+        return {"verb": self.verb, "case": case, "mesh": self.mesh, "settings": settings} | more
 
 
 @dataclass(frozen=True)
@@ -61,25 +78,57 @@ class Sweep:
     title: str
     folder: Path
     runs: list[Run]
+    content: dict = field(default_factory=dict)  # the file's own, for what is asked of finished runs
 
     @property
     def name(self) -> str:
         return self.file.stem
 
+    @property
+    def symmetry(self) -> set[str]:
+        """Planes of symmetry of the configuration: "y" for y = 0, "z" for z = 0."""
+        return set(self.content.get("symmetry", []))
+
+    @property
+    def unit(self) -> float:
+        """Of the mesh, in metres."""
+        return UNITS[self.content.get("unit", "m")]
+
+    @property
+    def altitudes(self) -> list[float]:
+        """Metres above the sea at which loads are wanted."""
+        return numbers(str(self.file), "altitude", self.content["altitude"]) if "altitude" in self.content else []
+
     def find(self, name: str) -> Run:
         for run in self.runs:
             if run.name == name:
                 return run
-        raise SweepError(f"{self.file}: has no run '{name}'; it has {', '.join(run.name for run in self.runs)}")
+        some = ", ".join(run.name for run in self.runs[:20]) + (", ..." if len(self.runs) > 20 else "")
+        raise SweepError(f"{self.file}: has no run '{name}'; it has {some}")
 
 
 def case_content(path: Path) -> Value | dict | None:
-    """The case as data, so that comments and layout do not count; as text when it is not TOML, None when it cannot be read."""
+    """The case as data, so that comments and layout do not count; as text when it is not TOML, as a hash when it is no text, None
+    when it cannot be read."""
     try:
-        return json.loads(json.dumps(tomllib.loads(path.read_text()), default=str))
+        status = os.stat(path)
+    except OSError:
+        return None
+    return content_at(path, status.st_mtime_ns, status.st_size)
+
+
+@lru_cache(maxsize=64)
+def content_at(path: Path, time: int, size: int) -> Value | dict | None:
+    """Thousands of runs share a case."""
+    try:
+        raw = path.read_bytes()
+        text = raw.decode()
+        return json.loads(json.dumps(tomllib.loads(text), default=str))
     except tomllib.TOMLDecodeError:
-        return path.read_text()
-    except (OSError, UnicodeDecodeError):
+        return text
+    except UnicodeDecodeError:
+        return "sha256 " + hashlib.sha256(raw).hexdigest()
+    except OSError:
         return None
 
 
@@ -97,7 +146,8 @@ def read_sweep(path: Path) -> Sweep:
     path = path.resolve()
     content = read_toml(path)
     refuse_unknown(path, content, SWEEP_KEYS)
-    folder = path.parent / content.get("folder", f"runs/{path.stem}")
+    check_head(path, content)
+    folder = (path.parent / content.get("folder", f"runs/{path.stem}")).resolve()
     blocks = list(content.get("runs", []))
     extensions = folder / EXTENSIONS
     extra = read_toml(extensions) if extensions.exists() else {}
@@ -105,53 +155,118 @@ def read_sweep(path: Path) -> Sweep:
     if not blocks:
         raise SweepError(f"{path}: names no runs; add a [[runs]] block, for example with mach = [1.5, 2.0]")
     defaults = {key: value for key, value in content.items() if key in BLOCK_KEYS}
-    runs = [run for block in blocks for run in expand(path, folder.resolve(), defaults, block, extra.get("cycles"))]
+    controls = content.get("controls", {})
+    runs = [run for block in blocks for run in expand(path, folder, defaults, block, controls, extra.get("cycles"))]
     seen: set[str] = set()
     for run in runs:
         if run.name in seen:
             raise SweepError(f"{path}: two runs are called '{run.name}'; give one of their [[runs]] blocks a label")
         seen.add(run.name)
-    return Sweep(path, content.get("title", path.stem), folder.resolve(), runs)
+    sweep = Sweep(path, content.get("title", path.stem), folder, runs, content)
+    return Sweep(path, sweep.title, folder, without_images(runs, sweep.symmetry), content)
 
 
-def expand(path: Path, folder: Path, defaults: dict, block: dict, cycles: float | None) -> list[Run]:
-    """The runs of one block: every combination of its lists, in the order mesh, method, alpha, Mach."""
+def check_head(path: Path, content: dict) -> None:
+    """What the file says about all runs. Raises SweepError."""
+    planes = content.get("symmetry", [])
+    if not isinstance(planes, list) or set(map(str, planes)) - {"y", "z"}:
+        raise SweepError(f'{path}: symmetry lists planes, "y" for y = 0 and "z" for z = 0, not {planes!r}')
+    if content.get("unit", "m") not in UNITS:
+        raise SweepError(f"{path}: unit, of the mesh, is one of {', '.join(UNITS)}, not {content['unit']!r}")
+    controls = content.get("controls", {})
+    for name, sets in controls.items() if isinstance(controls, dict) else [("controls", controls)]:
+        good = lambda value: is_number(value) or (isinstance(value, list) and value and all(map(is_number, value)))
+        if name in BLOCK_KEYS or not isinstance(sets, dict) or not sets or not all(map(good, sets.values())):
+            raise SweepError(
+                f"{path}: [controls] {name} must say what a degree of it turns, such as pitch = {{canard = [1, 1, -1, -1]}}: sets of fins"
+                " of the description with degrees of all panels, or of each; its name must not be an axis"
+            )
+
+
+def without_images(runs: list[Run], planes: set[str]) -> list[Run]:
+    """Runs but for those that are the mirror image of another: tables have them from there. With controls deflected there is none."""
+    if not planes:
+        return runs
+
+    def key(run: Run, alpha: float, beta: float) -> tuple:
+        rest = {name: value for name, value in run.settings.items() if name not in ("freestream.alpha", "freestream.beta")}
+        return (run.case, run.label, run.method, run.mesh, run.mesh_mach, run.mach, round(alpha, 9), round(beta, 9), repr(sorted(rest.items())))
+
+    present = {key(run, run.alpha, run.beta) for run in runs if not any(run.deflections.values())}
+
+    def is_image(run: Run) -> bool:
+        alpha = abs(run.alpha) if "z" in planes else run.alpha
+        beta = abs(run.beta) if "y" in planes else run.beta
+        turned = (alpha, beta) != (run.alpha, run.beta)
+        return turned and not any(run.deflections.values()) and key(run, alpha, beta) in present
+
+    return [run for run in runs if not is_image(run)]
+
+
+def expand(path: Path, folder: Path, defaults: dict, block: dict, controls: dict, cycles: float | None) -> list[Run]:
+    """The runs of one block: every combination of its lists, in the order mesh, controls, method, alpha, beta, Mach."""
     refuse_unknown(path, block, BLOCK_KEYS)
+    if any(key in block for key in TOTAL_ANGLES):
+        defaults = {key: value for key, value in defaults.items() if key not in BODY_ANGLES}
+    elif any(key in block for key in BODY_ANGLES):
+        defaults = {key: value for key, value in defaults.items() if key not in TOTAL_ANGLES}
     merged = defaults | block
+    rows = matrix(path.parent / merged["matrix"], controls) if "matrix" in merged else [{}]
+    given = merged.keys() | (rows[0].keys() if rows else set())
+    if given & set(BODY_ANGLES) and given & set(TOTAL_ANGLES):
+        raise SweepError(f"{path}: give either alpha and beta, or alpha_t and phi")
     settings = defaults.get("set", {}) | block.get("set", {})
-    axes = [as_list(path, merged, key) for key in ("mesh", "method", "alpha", "mach")]
+    if not merged.get("case"):
+        raise SweepError(f'{path}: names no case; add case = "FILE.toml"')
+    case, ranks = (path.parent / merged["case"]).resolve(), merged.get("ranks", 2)
+    if not isinstance(ranks, int) or ranks < 1:
+        raise SweepError(f"{path}: ranks must be a whole number of at least 1, not {ranks!r}")
+    mesh_mach = merged.get("mesh_mach")
+    if mesh_mach is not None and (not isinstance(mesh_mach, list) or len(mesh_mach) != 2 or not all(map(is_number, mesh_mach))):
+        raise SweepError(f"{path}: mesh_mach is the lowest and the highest Mach number of a mesh, such as [1.5, 2.5], not {mesh_mach!r}")
     runs = []
-    for mesh, method, alpha, mach in itertools.product(*axes):
-        own = {"freestream.mach": mach, "freestream.alpha": alpha} | settings
+    for point in points(str(path), merged, rows, controls):
+        method, mesh, mach, alpha, beta = (point[key] for key in ("method", "mesh", "mach", "alpha", "beta"))
+        own = {"freestream.mach": mach, "freestream.alpha": alpha}
+        own |= {"freestream.beta": beta} if beta or "beta" in given else {}
+        own |= settings
         if method != DERIVATIVES:
             own["motion.kind"] = "none" if method == STEADY else method
         if cycles is not None and method not in (DERIVATIVES, STEADY):
             own["unsteady.cycles"] = cycles
         label = merged.get("label", method)
-        words = [label, Path(mesh).stem, f"m{mach:g}", f"a{alpha:g}"]
+        angles = [f"at{point['alpha_t']:g}", f"phi{point['phi']:g}"] if "alpha_t" in point else [f"a{alpha:g}"]
+        angles += [f"b{beta:g}"] if "beta" in given else []
+        words = [label, Path(mesh).stem, f"m{mach:g}", *angles, *(f"{name}{value:g}" for name, value in point["deflection"].items())]
         name = "_".join(word for word in words if word)
         if not all(character.isalnum() or character in "._-+" for character in name):
             raise SweepError(f"{path}: '{name}' cannot name a folder; use letters, digits, and . _ - + in label and method")
-        case, ranks = path.parent / merged.get("case", ""), merged.get("ranks", 2)
-        if not merged.get("case"):
-            raise SweepError(f'{path}: names no case; add case = "FILE.toml"')
-        if not isinstance(ranks, int) or ranks < 1:
-            raise SweepError(f"{path}: ranks must be a whole number of at least 1, not {ranks!r}")
-        runs.append(Run(name, folder / name, case.resolve(), label, method, mach, alpha, mesh, ranks, own))
+        runs.append(Run(
+            name, folder / name, case, label, method, mach, alpha, beta, mesh, ranks, own,
+            tuple(map(float, mesh_mach)) if mesh_mach else None, point["deflection"], panels_of(path, controls, point["deflection"]),
+        ))  # fmt: skip
+    if any(run.panels for run in runs) and not (runs[0].is_described and case.suffix.lower() == ".toml"):
+        raise SweepError(f"{path}: {case.name} is not a description with [[fins]]: there is nothing that a control can turn")
     return runs
 
 
-def as_list(path: Path, block: dict, key: str) -> list:
-    """The values of an axis of the sweep, checked."""
-    default = {"mesh": "", "method": DERIVATIVES, "alpha": 0.0}
-    if key not in block and key not in default:
-        raise SweepError(f"{path}: a [[runs]] block has no {key}; for example {key} = [1.5, 2.0]")
-    value = block.get(key, default.get(key))
-    values = value if isinstance(value, list) else [value]
-    wanted = str if key in ("mesh", "method") else (int, float)
-    if not values or not all(isinstance(item, wanted) and not isinstance(item, bool) for item in values):
-        raise SweepError(f"{path}: {key} must be {'text' if wanted is str else 'a number'} or a list of it, not {value!r}")
-    return values if wanted is str else [float(item) for item in values]
+def panels_of(path: Path, controls: dict, deflection: dict[str, float]) -> dict[str, Value]:
+    """Degrees by set of fins, of all panels or of each, that the deflected controls make together; nothing for those that stay. Raises
+    SweepError."""
+    out: dict[str, Value] = {}
+    for control, degrees in deflection.items():
+        for name, shares in controls[control].items():
+            parts = [degrees * share for share in shares] if isinstance(shares, list) else degrees * shares
+            known = out.get(name, 0.0)
+            if isinstance(known, list) and isinstance(parts, list) and len(known) != len(parts):
+                raise SweepError(f"{path}: [controls] speak of {len(known)} and of {len(parts)} panels of '{name}'")
+            if isinstance(known, list) or isinstance(parts, list):
+                count = len(known if isinstance(known, list) else parts)
+                both = (value if isinstance(value, list) else [value] * count for value in (known, parts))
+                out[name] = [a + b for a, b in zip(*both)]
+            else:
+                out[name] = known + parts
+    return {name: turn for name, turn in out.items() if any(turn if isinstance(turn, list) else [turn])}
 
 
 def refuse_unknown(path: Path, content: dict, known: set[str]) -> None:

@@ -100,8 +100,7 @@ class Runner:
         attempt = record.get("attempt", 0) + 1
         write_json(run.folder / RECORD, {"identity": run.identity(), "attempt": attempt, "started": time.strftime("%F %T")})
         try:
-            make_mesh(run)
-            code = self.launch(run, attempt, lock)
+            code = self.launch(run, make_mesh(run), attempt, lock)
         except (SweepError, OSError) as error:
             write_json(run.folder / END, {"reason": str(error)})
             return
@@ -110,22 +109,22 @@ class Runner:
             end["reason"] = reason(run.folder) or f"the program ended with code {code}; see {run.folder / LOG}"
         write_json(run.folder / END, end)
 
-    def command(self, run: Run) -> list[str]:
+    def command(self, run: Run, case: Path) -> list[str]:
         mesh = mesh_file(run)
         settings = run.settings | ({"mesh.file": str(mesh)} if mesh else {})
-        command = [str(self.program), run.verb, str(run.case), "--out", str(run.folder), "--overwrite"]
+        command = [str(self.program), run.verb, str(case), "--out", str(run.folder), "--overwrite"]
         command += [word for key, value in settings.items() for word in ("--set", f"{key}={toml_text(value)}")]
         if checkpoints(run):
             command.append("--restart")
         return [os.environ.get("MPIEXEC", "mpirun"), "-n", str(run.ranks), *command]
 
-    def launch(self, run: Run, attempt: int, lock: int) -> int:
+    def launch(self, run: Run, case: Path, attempt: int, lock: int) -> int:
         """Runs the program and gives its exit code. It is in a session of its own: a Ctrl-C at the terminal reaches it through
         stop() alone. It inherits the lock: a program that outlives this one keeps its folder."""
         environment = os.environ | {"OMPI_MCA_rmaps_base_oversubscribe": "1"}
         if os.geteuid() == 0:
             environment |= {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
-        command = self.command(run)
+        command = self.command(run, case)
         with open(run.folder / LOG, "a") as log:
             log.write(f"\n== attempt {attempt}, {time.strftime('%F %T')}: {' '.join(command)}\n")
             log.flush()

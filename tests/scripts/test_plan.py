@@ -33,7 +33,7 @@ class Plan(Workspace):
     def test_command_line(self) -> None:
         self.write('[[runs]]\nmethod = "plunge"\nmach = 2.5\nmesh = "coarse"\nranks = 3\nset."unsteady.cycles" = 2.5\n')
         run = read_sweep(self.file).runs[0]
-        command = " ".join(Runner(self.folder / "alphadot").command(run))
+        command = " ".join(Runner(self.folder / "alphadot").command(run, run.case))
         self.assertIn(f"-n 3 {self.folder}/alphadot run {self.folder}/good.toml --out {self.folder}/runs/{run.name}", command)
         for setting in ("freestream.mach=2.5", "freestream.alpha=1.5", "motion.kind=plunge", "unsteady.cycles=2.5"):
             self.assertIn(f"--set {setting}", command)
