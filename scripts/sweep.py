@@ -4,6 +4,7 @@
   sweep.py run SWEEP.toml      runs what is not done, here, and ends with the report; resumes what was interrupted
   sweep.py status SWEEP.toml   shows which runs wait, run, are done, not converged, interrupted, or failed and why
   sweep.py report SWEEP.toml   writes report.html, and its tables and figures as files, of what is done
+  sweep.py table SWEEP.toml    writes what is done as one table, CSV and HDF5, and for JSBSim, RocketPy, MATLAB and as text
   sweep.py extend SWEEP.toml   adds Mach numbers, or cycles to the motions; `run` then does what is new
   sweep.py retry SWEEP.toml    takes the failed runs up again, and begins those anew that are not converged
   sweep.py clean SWEEP.toml    removes the folders of failed and interrupted runs, or of all
@@ -30,7 +31,9 @@ A sweep file:
 
 Axes: mach, alpha, beta, or alpha_t and phi (total incidence, and the roll angle of the cross-flow from below towards starboard), mesh,
 method. A number, a list, or a range, both ends in it: {from = 0, to = 10, step = 2.5} or {from = 0, to = 10, count = 5}. Rows of a
-CSV file whose first line names axes: matrix = "points.csv". symmetry = ["y", "z"] leaves out what is the mirror image of another run.
+CSV file whose first line names axes: matrix = "points.csv". symmetry = ["y", "z"] leaves out what is the mirror image of another run;
+["axial"], for a body with three or more equal fins at small incidence, lets the tables take the side's derivatives from those in pitch.
+altitude (m) and unit ("m", "mm", "in", ...: of the mesh) are for dimensional loads.
 The case may be a description or a design that `alphadot mesh` takes; mesh_mach = [0.5, 2] makes one mesh for that range. Of a
 description panels turn, each combination in a mesh of its own:
 
@@ -55,6 +58,8 @@ from sweep import commands
 from sweep.lock import Locked
 from sweep.plan import SweepError, read_sweep
 
+FORMATS = ("jsbsim", "rocketpy", "datcom", "mat")
+
 
 def parse() -> argparse.Namespace:
     form = argparse.RawDescriptionHelpFormatter
@@ -73,6 +78,12 @@ def parse() -> argparse.Namespace:
     add("status", "show how far every run is")
     write = add("report", "write report.html")
     write.add_argument("--program", metavar="FILE", help="the program (default: $ALPHADOT, build/alphadot, or on the PATH)")
+    table = add("table", "write tables of what is done")
+    table.add_argument("--series", metavar="NAME", help="label and mesh of the runs that other programs' tables are of (default: most)")
+    table.add_argument(
+        "--formats", nargs="*", choices=FORMATS, default=FORMATS, metavar="FORMAT",
+        help=f"besides CSV and HDF5, of {', '.join(FORMATS)} (default: all)",
+    )  # fmt: skip
     extend = add("extend", "add Mach numbers or cycles")
     extend.add_argument("--mach", type=float, nargs="+", metavar="M", help="Mach numbers to add, for the methods of the sweep")
     extend.add_argument("--method", nargs="+", help="for these methods only")

@@ -45,7 +45,8 @@ def numbers(where: str, key: str, value: object) -> list[float]:
         return spread(where, key, value)
     values = value if isinstance(value, list) else [value]
     if not values or not all(map(is_number, values)):
-        raise SweepError(f"{where}: {key} must be a number, a list of them or a range such as {{from = 0, to = 10, step = 2}}, not {value!r}")
+        some = "a number, a list of them or a range such as {from = 0, to = 10, step = 2}"
+        raise SweepError(f"{where}: {key} must be {some}, not {value!r}")
     return [float(item) for item in values]
 
 

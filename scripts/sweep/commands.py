@@ -70,6 +70,16 @@ def report(sweep: Sweep, arguments: Namespace) -> int:
     return 0
 
 
+def table(sweep: Sweep, arguments: Namespace) -> int:
+    try:
+        from sweep.tables_out import FOLDER, write_all
+    except ImportError as error:
+        raise SweepError(f"{error}; run scripts/install.sh, and sweep.py with /usr/bin/python3") from None
+    lines = write_all(sweep, arguments.series, set(arguments.formats))
+    print("\n".join([f"{sweep.folder / FOLDER}:", *lines]))
+    return 0
+
+
 def extend(sweep: Sweep, arguments: Namespace) -> int:
     if not arguments.mach and not arguments.cycles:
         raise SweepError("extend needs --mach or --cycles")

@@ -87,7 +87,12 @@ class Sweep:
     @property
     def symmetry(self) -> set[str]:
         """Planes of symmetry of the configuration: "y" for y = 0, "z" for z = 0."""
-        return set(self.content.get("symmetry", []))
+        return {"y", "z"} if self.is_axial else set(self.content.get("symmetry", []))
+
+    @property
+    def is_axial(self) -> bool:
+        """Does the configuration look the same from all sides, as far as its loads go: three or more equal fins, small incidence?"""
+        return "axial" in self.content.get("symmetry", [])
 
     @property
     def unit(self) -> float:
@@ -169,8 +174,10 @@ def read_sweep(path: Path) -> Sweep:
 def check_head(path: Path, content: dict) -> None:
     """What the file says about all runs. Raises SweepError."""
     planes = content.get("symmetry", [])
-    if not isinstance(planes, list) or set(map(str, planes)) - {"y", "z"}:
-        raise SweepError(f'{path}: symmetry lists planes, "y" for y = 0 and "z" for z = 0, not {planes!r}')
+    if not isinstance(planes, list) or set(map(str, planes)) - {"y", "z", "axial"}:
+        raise SweepError(
+            f'{path}: symmetry lists planes, "y" for y = 0 and "z" for z = 0, or "axial" for what looks alike from all sides, not {planes!r}'
+        )
     if content.get("unit", "m") not in UNITS:
         raise SweepError(f"{path}: unit, of the mesh, is one of {', '.join(UNITS)}, not {content['unit']!r}")
     controls = content.get("controls", {})
@@ -190,7 +197,8 @@ def without_images(runs: list[Run], planes: set[str]) -> list[Run]:
 
     def key(run: Run, alpha: float, beta: float) -> tuple:
         rest = {name: value for name, value in run.settings.items() if name not in ("freestream.alpha", "freestream.beta")}
-        return (run.case, run.label, run.method, run.mesh, run.mesh_mach, run.mach, round(alpha, 9), round(beta, 9), repr(sorted(rest.items())))
+        same = (run.case, run.label, run.method, run.mesh, run.mesh_mach, run.mach, repr(sorted(rest.items())))
+        return (*same, round(alpha, 9), round(beta, 9))
 
     present = {key(run, run.alpha, run.beta) for run in runs if not any(run.deflections.values())}
 

@@ -1,0 +1,123 @@
+"""All results of a sweep as points: condition, coefficients, derivatives with their uncertainty, components, and how the run ended."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from dataclasses import dataclass, field, replace
+
+from sweep.plan import Run, Sweep
+from sweep.state import RESULT, Phase, State, read_json
+from sweep.status import states
+
+COEFFICIENTS = ("CA", "CY", "CN", "Cl", "Cm", "Cn")
+VARIABLES = ("alpha", "beta", "p", "q", "r", "alphadot", "betadot", "alphaddot", "betaddot", "q_plus_alphadot", "r_minus_betadot")
+NAMES = tuple(f"{coefficient}_{variable}" for variable in VARIABLES for coefficient in COEFFICIENTS)
+# What changes its sign in the mirror image about y = 0 and about z = 0; a derivative where one of its two halves does.
+ODD = {
+    "y": {"CY", "Cl", "Cn", "beta", "p", "r", "betadot", "betaddot", "r_minus_betadot"},
+    "z": {"CN", "Cl", "Cm", "alpha", "p", "q", "alphadot", "alphaddot", "q_plus_alphadot"},
+}
+
+
+@dataclass(frozen=True)
+class Estimate:
+    """A derivative, per radian, rates times length / 2V; its uncertainty is a half width, NaN where it is not known."""
+
+    value: float
+    uncertainty: float = math.nan
+    converged: bool = True
+    parts: dict[str, float] = field(default_factory=dict)  # of the uncertainty, by source
+
+    @staticmethod
+    def of(entry: dict) -> Estimate:
+        known = lambda number: math.nan if number is None else float(number)
+        parts = {name: known(part) for name, part in entry.get("parts", {}).items()}
+        return Estimate(known(entry["value"]), known(entry["uncertainty"]), entry.get("converged", True), parts)
+
+
+@dataclass(frozen=True)
+class Point:
+    """A run at its condition, or its mirror image; without a result everything that comes from one is empty."""
+
+    run: Run
+    state: State
+    alpha: float  # degrees
+    beta: float
+    image: str  # planes in which it is mirrored: "", "y", "z" or "yz"
+    coefficients: dict[str, float]
+    derivatives: dict[str, Estimate]
+    components: dict[str, dict[str, float]]
+    result: dict
+
+    @property
+    def is_good(self) -> bool:
+        """Did everything come to what was asked for?"""
+        return self.state.phase is Phase.DONE and all(entry.converged for entry in self.derivatives.values())
+
+    @property
+    def series(self) -> str:
+        """Runs of one series differ in their conditions and deflections alone."""
+        return " ".join(word for word in (self.run.label, self.run.mesh) if word)
+
+    @property
+    def is_deflected(self) -> bool:
+        return any(self.run.deflections.values())
+
+    @property
+    def static_margin(self) -> float:
+        """In lengths behind the centre; NaN where it is not known."""
+        found = [self.derivatives.get(name) for name in ("CN_alpha", "Cm_alpha")]
+        return -found[1].value / found[0].value if all(found) and found[0].value else math.nan
+
+
+def read_points(sweep: Sweep) -> list[Point]:
+    """A point a run, in their order, and then the mirror images that the symmetry of the sweep tells."""
+    points = [point_of(run, state) for run, state in states(sweep)]
+    return points + list(images(points, sweep.symmetry))
+
+
+def point_of(run: Run, state: State) -> Point:
+    if state.phase not in (Phase.DONE, Phase.SHORT):
+        return Point(run, state, run.alpha, run.beta, "", {}, {}, {}, {})
+    result = read_json(run.folder / RESULT)
+    forces = result.get("forces", {})
+    return Point(
+        run,
+        state,
+        run.alpha,
+        run.beta,
+        "",
+        {name: forces[name] for name in COEFFICIENTS if forces.get(name) is not None},
+        {name: Estimate.of(entry) for name, entry in result.get("derivatives", {}).items() if name in NAMES and entry["value"] is not None},
+        forces.get("components", {}),
+        result,
+    )
+
+
+def images(points: Iterable[Point], planes: set[str]) -> Iterable[Point]:
+    """Mirror images of undeflected points, but for conditions that were computed."""
+    points = list(points)
+    known = {(point.series, point.run.method, point.run.mach, round(point.alpha, 9), round(point.beta, 9)) for point in points}
+    for kind in ("y", "z", "yz"):
+        for point in points if set(kind) <= planes else []:
+            alpha = -point.alpha if "z" in kind else point.alpha
+            beta = -point.beta if "y" in kind else point.beta
+            key = (point.series, point.run.method, point.run.mach, round(alpha, 9), round(beta, 9))
+            if point.is_deflected or not point.coefficients or key in known:
+                continue
+            known.add(key)
+            yield mirrored(point, kind, alpha + 0.0, beta + 0.0)
+
+
+def mirrored(point: Point, kind: str, alpha: float, beta: float) -> Point:
+    """The patches of a mirror image have other names, and are left out."""
+
+    def sign(*words: str) -> float:
+        return math.prod(-1.0 for plane in kind for word in words if word in ODD[plane])
+
+    coefficients = {name: sign(name) * value + 0.0 for name, value in point.coefficients.items()}
+    derivatives = {
+        name: replace(entry, value=sign(*name.split("_", 1)) * entry.value + 0.0) for name, entry in point.derivatives.items()
+    }
+    return replace(point, alpha=alpha, beta=beta, image=kind, coefficients=coefficients, derivatives=derivatives, components={})
