@@ -5,6 +5,7 @@
   sweep.py status SWEEP.toml   shows which runs wait, run, are done, not converged, interrupted, or failed and why
   sweep.py report SWEEP.toml   writes report.html, and its tables and figures as files, of what is done
   sweep.py table SWEEP.toml    writes what is done as one table, CSV and HDF5, and for JSBSim, RocketPy, MATLAB and as text
+  sweep.py dynamics SWEEP.toml short period, weathercock and roll mode, static margin and damping, with the masses of the sweep file
   sweep.py extend SWEEP.toml   adds Mach numbers, or cycles to the motions; `run` then does what is new
   sweep.py retry SWEEP.toml    takes the failed runs up again, and begins those anew that are not converged
   sweep.py clean SWEEP.toml    removes the folders of failed and interrupted runs, or of all
@@ -34,6 +35,8 @@ method. A number, a list, or a range, both ends in it: {from = 0, to = 10, step 
 CSV file whose first line names axes: matrix = "points.csv". symmetry = ["y", "z"] leaves out what is the mirror image of another run;
 ["axial"], for a body with three or more equal fins at small incidence, lets the tables take the side's derivatives from those in pitch.
 altitude (m) and unit ("m", "mm", "in", ...: of the mesh) are for dimensional loads.
+A state of mass for the dynamics, as many as there are: [[mass]] with label, mass (kg), inertia = [Ixx, Iyy, Izz] (kg m2), center (of
+gravity, x in the mesh's unit).
 The case may be a description or a design that `alphadot mesh` takes; mesh_mach = [0.5, 2] makes one mesh for that range. Of a
 description panels turn, each combination in a mesh of its own:
 
@@ -84,6 +87,8 @@ def parse() -> argparse.Namespace:
         "--formats", nargs="*", choices=FORMATS, default=FORMATS, metavar="FORMAT",
         help=f"besides CSV and HDF5, of {', '.join(FORMATS)} (default: all)",
     )  # fmt: skip
+    dynamics = add("dynamics", "short period, weathercock and roll of what is done, with the masses of the sweep file")
+    dynamics.add_argument("--program", metavar="FILE", help="the program (default: $ALPHADOT, build/alphadot, or on the PATH)")
     extend = add("extend", "add Mach numbers or cycles")
     extend.add_argument("--mach", type=float, nargs="+", metavar="M", help="Mach numbers to add, for the methods of the sweep")
     extend.add_argument("--method", nargs="+", help="for these methods only")

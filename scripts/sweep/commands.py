@@ -80,6 +80,16 @@ def table(sweep: Sweep, arguments: Namespace) -> int:
     return 0
 
 
+def dynamics(sweep: Sweep, arguments: Namespace) -> int:
+    from sweep import dynamics as modes
+
+    text, rows = modes.dynamics(sweep, find_program(arguments.program))
+    file = sweep.folder / "table" / "dynamics.csv"
+    modes.write_csv(file, rows)
+    print(f"{text}\nwritten: {file}")
+    return 0
+
+
 def extend(sweep: Sweep, arguments: Namespace) -> int:
     if not arguments.mach and not arguments.cycles:
         raise SweepError("extend needs --mach or --cycles")

@@ -68,10 +68,12 @@ class Runs:
             self.known[center] = [moved[index] for index in range(len(self.files))]
         return self.known[center]
 
-    def derive(self, files: Sequence[Path], x: float | None = None) -> list[dict]:
+    def derive(self, files: Sequence[Path], center: float | Sequence[float] | None = None) -> list[dict]:
+        """What `alphadot derive` says, about x or (x, y, z) in the mesh's unit. Raises SweepError."""
         if not files:
             return []
-        about = [] if x is None else ["--center", repr(x)]
+        at = [center] if isinstance(center, (int, float)) else center or []
+        about = ["--center", ",".join(map(repr, at))] if at else []
         command = [self.program, "derive", *files, *about, "--json"]
         done = subprocess.run(list(map(str, command)), capture_output=True, text=True)
         if done.returncode != 0:

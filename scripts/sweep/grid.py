@@ -114,23 +114,26 @@ def why_not(point: Point) -> str:
 
 
 def completed_by_roll(grid: Grid) -> Grid:
-    """The side's derivatives from those in pitch, for a configuration that looks the same from all sides (three or more equal fins, at
-    small incidence). At an incidence in the plane of symmetry a sideslip turns the force about the axis:
-    CY_beta = -CN / sin(alpha), and -CN_alpha at zero; rates have the value of pitch at the same incidence. Where sideslip is an axis of
-    the grid, or the side's derivatives are there, nothing is changed."""
-    if len(grid.beta) > 1 or "CY_beta" in grid.derivatives():
+    """The side's derivatives from those in pitch; nothing where sideslip is an axis of the grid."""
+    if len(grid.beta) > 1:
         return grid
-    done = {}
-    for key, point in grid.points.items():
-        found = dict(point.derivatives)
-        for side, (pitch, sign) in PITCH_TO_YAW.items():
-            for rate, (own, turn) in YAW_RATES.items():
-                source = point.derivatives.get(f"{pitch}_{own}")
-                if source is None:
-                    continue
-                value = sign * turn * source.value
-                if rate == "beta" and abs(point.alpha) > 1e-6:
-                    value = sign * point.coefficients[pitch] / math.sin(math.radians(point.alpha))
-                found[f"{side}_{rate}"] = Estimate(value, source.uncertainty, source.converged)
-        done[key] = replace(point, derivatives=found)
-    return replace(grid, points=done)
+    return replace(grid, points={key: with_side(point) for key, point in grid.points.items()})
+
+
+def with_side(point: Point) -> Point:
+    """The side's derivatives from those in pitch, of a configuration that looks the same from all sides (three or more equal fins, at
+    small incidence), unless it has them. At an incidence in the plane of symmetry a sideslip turns the force about the axis:
+    CY_beta = -CN / sin(alpha), and -CN_alpha at zero; rates have the value of pitch at the same incidence."""
+    if "CY_beta" in point.derivatives:
+        return point
+    found = dict(point.derivatives)
+    for side, (pitch, sign) in PITCH_TO_YAW.items():
+        for rate, (own, turn) in YAW_RATES.items():
+            source = point.derivatives.get(f"{pitch}_{own}")
+            if source is None:
+                continue
+            value = sign * turn * source.value
+            if rate == "beta" and abs(point.alpha) > 1e-6:
+                value = sign * point.coefficients[pitch] / math.sin(math.radians(point.alpha))
+            found[f"{side}_{rate}"] = Estimate(value, source.uncertainty, source.converged)
+    return replace(point, derivatives=found)

@@ -180,6 +180,7 @@ def check_head(path: Path, content: dict) -> None:
         )
     if content.get("unit", "m") not in UNITS:
         raise SweepError(f"{path}: unit, of the mesh, is one of {', '.join(UNITS)}, not {content['unit']!r}")
+    check_mass(path, content.get("mass", []))
     controls = content.get("controls", {})
     for name, sets in controls.items() if isinstance(controls, dict) else [("controls", controls)]:
         good = lambda value: is_number(value) or (isinstance(value, list) and value and all(map(is_number, value)))
@@ -188,6 +189,18 @@ def check_head(path: Path, content: dict) -> None:
                 f"{path}: [controls] {name} must say what a degree of it turns, such as pitch = {{canard = [1, 1, -1, -1]}}: sets of fins"
                 " of the description with degrees of all panels, or of each; its name must not be an axis"
             )
+
+
+def check_mass(path: Path, states: object) -> None:
+    """States of mass, for the dynamics. Raises SweepError."""
+    example = '[[mass]] label = "burnout", mass = 20.0 (kg), inertia = [0.05, 6.0, 6.0] (Ixx, Iyy, Izz about the centre of gravity, kg m2),'
+    example += " center = 0.9 (of gravity, x in the mesh's unit)"
+    three = lambda value: isinstance(value, list) and len(value) == 3 and all(map(is_number, value))
+    for state in states if isinstance(states, list) else [states]:
+        good = isinstance(state, dict) and state.keys() - {"label"} == {"mass", "inertia", "center"} and is_number(state["mass"])
+        good = good and three(state["inertia"]) and (is_number(state["center"]) or three(state["center"]))
+        if not good or min(state["mass"], *state["inertia"]) <= 0.0:
+            raise SweepError(f"{path}: mass: each state is like {example}")
 
 
 def without_images(runs: list[Run], planes: set[str]) -> list[Run]:

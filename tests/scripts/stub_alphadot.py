@@ -39,7 +39,7 @@ def derive(files: list[str], x: float | None) -> None:
 
 
 if sys.argv[1] == "derive":
-    about = float(sys.argv[sys.argv.index("--center") + 1]) if "--center" in sys.argv else None
+    about = float(sys.argv[sys.argv.index("--center") + 1].split(",")[0]) if "--center" in sys.argv else None
     derive([word for word in sys.argv[2:] if word.endswith(".json")], about)
     sys.exit()
 
