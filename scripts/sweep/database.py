@@ -13,6 +13,7 @@ from sweep.status import states
 COEFFICIENTS = ("CA", "CY", "CN", "Cl", "Cm", "Cn")
 VARIABLES = ("alpha", "beta", "p", "q", "r", "alphadot", "betadot", "alphaddot", "betaddot", "q_plus_alphadot", "r_minus_betadot")
 NAMES = tuple(f"{coefficient}_{variable}" for variable in VARIABLES for coefficient in COEFFICIENTS)
+SIDE = ("CY_beta", "Cn_beta", "Cl_beta", "Cn_r", "Cn_betadot", "Cl_p", "Cn_p", "Cl_r")  # of the motion out of the plane of symmetry
 # What changes its sign in the mirror image about y = 0 and about z = 0; a derivative where one of its two halves does.
 ODD = {
     "y": {"CY", "Cl", "Cn", "beta", "p", "r", "betadot", "betaddot", "r_minus_betadot"},

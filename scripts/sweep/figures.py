@@ -18,6 +18,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 from sweep.derive import Derivatives, Runs
+from sweep.picture import Picture
 from sweep.results import Entry, Results, finite
 from sweep.tables import method_label
 from table_one import FREE_FLIGHT_CENTER, HERE, MEASURED, OTHER, PAPER, SZNAJDER_CENTER, Row, column
@@ -29,15 +30,6 @@ STYLE = {
     "font.size": 10, "axes.grid": True, "grid.alpha": 0.25, "axes.spines.top": False, "axes.spines.right": False,
     "legend.fontsize": 8, "legend.framealpha": 0.85, "svg.hashsalt": "alphadot", "axes.axisbelow": True,
 }  # fmt: skip
-
-
-@dataclass(frozen=True)
-class Picture:
-    """A figure as files, FOLDER/NAME.svg or .png or both; the page shows `file`."""
-
-    file: Path
-    title: str
-    caption: str = ""
 
 
 def save(figure: plt.Figure, folder: Path, name: str, title: str, caption: str = "") -> Picture:
@@ -248,6 +240,25 @@ def draw_loop(
     return pictures
 
 
+NAMED = 10  # marches that a legend has room for
+MANY = "all in grey; named are those that ended short and took longest"
+
+
+def draw_marches(axes: plt.Axes, histories: list[tuple[Entry, dict[str, np.ndarray]]]) -> None:
+    """Each with its name; of many only those that are not converged and the longest, the others in grey."""
+    rank = lambda item: (item[0].converged, -float(item[1]["iteration"][-1]))
+    named = sorted(histories, key=rank)[: NAMED if len(histories) <= NAMED else 6]
+    names = {entry.run.name for entry, _ in named}
+    for entry, history in histories:
+        if entry.run.name not in names:
+            axes.plot(history["iteration"], -history["orders"], color="#8a97a5", lw=0.6, alpha=0.35, rasterized=True)
+    for index, (entry, history) in enumerate(named):
+        color = PAPER if not entry.converged else plt.get_cmap("viridis")(index / max(1, len(named) - 1) * 0.92)
+        style = "--" if entry.run.is_motion else "-"
+        axes.plot(history["iteration"], -history["orders"], style, color=color, lw=1.3, label=entry.label.replace("_", " "))
+    axes.legend(fontsize=7)
+
+
 def convergence_figures(results: Results, folder: Path) -> list[Picture]:
     """The steady marches in one figure, the inner iterations of the motions in another."""
     pictures = []
@@ -255,26 +266,21 @@ def convergence_figures(results: Results, folder: Path) -> list[Picture]:
     histories = [(entry, history) for entry, history in histories if "orders" in history]
     if histories:
         figure, axes = panel("iteration", "density residual, decades")
-        for index, (entry, history) in enumerate(histories):
-            color = plt.get_cmap("viridis")(index / max(1, len(histories) - 1) * 0.92)
-            style = "--" if entry.run.is_motion else "-"
-            label = entry.label.replace("_", " ")
-            axes.plot(history["iteration"], -history["orders"], style, color=color, lw=1.3, label=label)
-        axes.legend(fontsize=7)
+        draw_marches(axes, histories)
         axes.set_title("Steady marches", fontsize=11)
-        pictures.append(save(figure, folder, "convergence_steady", "Steady marches"))
+        pictures.append(save(figure, folder, "convergence_steady", "Steady marches", MANY if len(histories) > NAMED else ""))
     motions = [(entry, read_columns(entry.run.folder / HISTORY)) for entry in results.entries if entry.run.is_motion]
     motions = [(entry, history) for entry, history in motions if "inner_iterations" in history]
     if motions:
         figure, axes = panel("t* = 2 V t / length", "inner iterations a step")
-        for (entry, history), color in zip(motions, COLORS * len(motions)):
+        for (entry, history), color in zip(motions[:NAMED], COLORS * 2):
             axes.plot(history["t_star"], history["inner_iterations"], color=color, lw=1.3, label=entry.label.replace("_", " "))
         axes.set_ylim(bottom=0)
         axes.set_title("Motions", fontsize=11)
         axes.legend(fontsize=7)
         pictures.append(save(figure, folder, "convergence_motion", "Motions: work of each time step"))
         figure, axes = panel("t* = 2 V t / length", "|error of Cm| left by the inner iterations")
-        for (entry, history), color in zip(motions, COLORS * len(motions)):
+        for (entry, history), color in zip(motions[:NAMED], COLORS * 2):
             axes.semilogy(
                 history["t_star"],
                 np.abs(history["error/Cm"]) + 1e-16,

@@ -5,9 +5,10 @@ from __future__ import annotations
 import base64
 import re
 from collections.abc import Sequence
+from dataclasses import dataclass
 from html import escape
 
-from sweep.figures import Picture
+from sweep.picture import Picture
 from sweep.tables import Table
 
 STYLE = """
@@ -32,17 +33,20 @@ h2 { margin: 2.4rem 0 0.6rem; font-size: 1.35rem; border-bottom: 2px solid var(-
 dl { display: grid; grid-template-columns: max-content 1fr; gap: 0.25rem 1.2rem; margin: 0.8rem 0; font-size: 0.94rem; }
 dt { color: var(--soft); } dd { margin: 0; overflow-wrap: anywhere; }
 .box { margin-top: 1.2rem; border-left: 4px solid var(--accent); background: var(--tint); padding: 0.3rem 1rem; border-radius: 0 8px 8px 0; }
-.wide { overflow-x: auto; margin: 0 0 1.3rem; border: 1px solid var(--line); border-radius: 8px; }
+.wide { overflow: auto; max-height: 36rem; margin: 0 0 1.3rem; border: 1px solid var(--line); border-radius: 8px; }
 table { border-collapse: collapse; font-size: 0.86rem; font-variant-numeric: tabular-nums; width: 100%; }
 h3 { margin: 1.2rem 0 0.5rem; font-size: 0.98rem; line-height: 1.35; }
 th, td { padding: 0.34rem 0.7rem; text-align: right; white-space: nowrap; border-top: 1px solid var(--line); }
 th { background: var(--tint); color: var(--soft); font-weight: 600; white-space: normal; min-width: 4.4rem; }
-th { vertical-align: bottom; }
+th { vertical-align: bottom; position: sticky; top: 0; z-index: 1; } th:first-child { z-index: 2; }
 td.text, th.text { text-align: left; } td.text.long { white-space: normal; min-width: 14rem; }
 th:first-child, td:first-child { position: sticky; left: 0; } td:first-child { background: white; }
 td.error { color: var(--warn); background: #fdf7f2; } th.error { background: #faf0e7; }
 tbody tr:hover td { background: #eef4fb; }
 .grid { display: grid; grid-template-columns: repeat(auto-fill, minmax(min(100%, 345px), 1fr)); gap: 1rem; }
+.legend { display: flex; flex-wrap: wrap; gap: 0.3rem 1.1rem; margin: 0 0 0.8rem; font-size: 0.88rem; }
+.legend span { display: inline-flex; align-items: center; gap: 0.4rem; white-space: nowrap; }
+.legend i { width: 1.7rem; border-top: 3px solid; } .legend i.cross { width: auto; border: 0; font: bold 1rem sans-serif; }
 .grid.broad { grid-template-columns: repeat(auto-fill, minmax(min(100%, 540px), 1fr)); }
 figure { margin: 0; border: 1px solid var(--line); border-radius: 8px; padding: 0.5rem; background: white; }
 figure img { width: 100%; height: auto; display: block; }
@@ -58,6 +62,27 @@ footer { padding: 1rem; color: var(--soft); font-size: 0.85rem; border-top: 1px 
 }
 @media print { nav { display: none; } figure, table { break-inside: avoid; } }
 """
+
+
+@dataclass(frozen=True)
+class Key:
+    """An entry of a legend: "solid", "dashed", "dotted" or "cross" in a colour."""
+
+    text: str
+    color: str
+    kind: str
+
+
+def legend(keys: Sequence[Key]) -> str:
+    """For all the panels below it."""
+
+    def mark(key: Key) -> str:
+        if key.kind == "cross":
+            return f'<i class="cross" style="color:{key.color}">✖</i>'
+        return f'<i style="border-color:{key.color};border-top-style:{key.kind}"></i>'
+
+    return f'<div class="legend">{"".join(f"<span>{mark(key)}{escape(key.text)}</span>" for key in keys)}</div>' if keys else ""
+
 
 TYPES = {".svg": "image/svg+xml", ".png": "image/png"}
 
@@ -82,8 +107,9 @@ def table(item: Table) -> str:
         names = f' class="{" ".join(kinds)}"' if kinds else ""
         return f"<{tag}{names}>{escape(text)}</{tag}>"
 
-    head = "".join(cell("th", index, text) for index, text in enumerate(item.columns))
-    rows = ("".join(cell("td", index, text) for index, text in enumerate(item.shown(row))) for row in item.rows)
+    kept = [index for index in range(len(item.columns)) if index not in item.joined | item.hidden]
+    head = "".join(cell("th", index, item.columns[index]) for index in kept)
+    rows = ("".join(cell("td", index, item.shown(row)[index]) for index in kept) for row in item.rows)
     body = "".join(f"<tr>{row}</tr>" for row in rows)
     return (
         f'<h3>{escape(item.caption)}</h3><div class="wide"><table>'
@@ -93,6 +119,16 @@ def table(item: Table) -> str:
 
 def terms(pairs: Sequence[tuple[str, str]]) -> str:
     return f"<dl>{''.join(f'<dt>{escape(name)}</dt><dd>{escape(text)}</dd>' for name, text in pairs)}</dl>"
+
+
+def notices(title: str, lines: Sequence[str]) -> str:
+    """What is to be read first; many lines are folded."""
+    if not lines:
+        return ""
+    body = f'<ul class="bad">{"".join(f"<li>{escape(line)}</li>" for line in lines)}</ul>'
+    if len(lines) <= 8:
+        return f'<p class="bad">{escape(title)}</p>{body}'
+    return f'<details class="bad"><summary>{escape(title)} ({len(lines)})</summary>{body}</details>'
 
 
 def cards(pairs: Sequence[tuple[str, str]]) -> str:

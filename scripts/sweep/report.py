@@ -10,9 +10,10 @@ from pathlib import Path
 
 import matplotlib.pyplot as plt
 
-from sweep import figures, page, surface, tables
+from sweep import curves, dynamics, figures, page, surface, tables
 from sweep.plan import Sweep, SweepError
 from sweep.results import Results, finite, relative
+from sweep.state import Phase
 from sweep.text import duration
 from table_one import FREE_FLIGHT_CENTER, SZNAJDER_CENTER
 
@@ -26,21 +27,24 @@ def write_report(sweep: Sweep, program: Path) -> Path:
     shutil.rmtree(folder, ignore_errors=True)  # a figure of an older report would be mistaken for one of this
     folder.mkdir(parents=True)
     with plt.rc_context(figures.STYLE):
+        moving, moving_warnings = motion(results)
         sections = [
+            ("Not done", unfinished(results)),
             ("Beside the paper", beside_the_paper(results, folder)),
+            ("Against angle of attack", against_alpha(results, folder)),
             ("Against Mach number", against_mach(results, folder)),
+            ("Motion", moving),
             ("Loops", loops(results, folder)),
             ("Derivatives", derivatives(results, folder)),
             ("Surface pressure", page.grid(surface.pressure_pictures(results, folder), broad=True)),
             ("Convergence", page.grid(figures.convergence_figures(results, folder))),
             ("Meshes", page.grid(surface.mesh_pictures(results, folder))),
             ("Cost", write(tables.cost_table(results), folder)),
-            ("Not done", unfinished(results)),
             ("Provenance", provenance(results)),
         ]
     done, every = len(results.entries), len(sweep.runs)
     subtitle = f"{done} of {every} runs done · {time.strftime('%d %B %Y, %H:%M')}"
-    top = page.cards(headline(results)) + warnings(results) + conventions(results)
+    top = warnings(results) + moving_warnings + page.cards(headline(results)) + conventions(results)
     file = sweep.folder / "report.html"
     temporary = file.with_suffix(".tmp")
     temporary.write_text(page.page(sweep.title, subtitle, top, sections))
@@ -67,17 +71,33 @@ def headline(results: Results) -> list[tuple[str, str]]:
         damping = [abs(relative(here.Cm_q, row["damping_field"])) for here, row in pairs if finite(here.Cm_q)]
         if damping:
             out.append((f"{max(damping):.1f} %", "largest difference of Cm_q from the paper, a prediction"))
+    else:
+        out += balance(results)
     wall, processor = (sum(entry.result["performance"][key] or 0 for entry in results.entries) for key in ("wall_s", "cpu_s"))
     runs = f"{len(results.entries)} runs on {results.entries[0].result['ranks']} ranks"
     out.append((duration(processor), f"of processor for {runs}, {duration(wall)} on the wall"))
     return out
 
 
+def balance(results: Results) -> list[tuple[str, str]]:
+    """Ranges over the converged runs of what stability and damping rest on."""
+    good = [point for point in results.points if point.is_good and not point.image]
+
+    def span(curve: curves.Curve, form: str) -> str:
+        values = sorted(value for value, _ in map(curve.value, good) if finite(value))
+        ends = list(dict.fromkeys(format(value, form).replace("-", "−") for value in values[:1] + values[-1:]))
+        return " to ".join(ends)
+
+    known = {curve.name: curve for curve in curves.PITCH}
+    wanted = (("margin", ".2f", "lengths of static margin"), ("damping", ".0f", "Cm_q + Cm_alphadot, per rad; below zero damps"))
+    return [(text, words) for name, form, words in wanted if (text := span(known[name], form))]
+
+
 def warnings(results: Results) -> str:
-    """Runs whose numbers are to be read with care."""
-    loose = [entry for entry in results.entries if not entry.converged]
-    lines = [f"<li>{escape(entry.run.name)}: {escape(entry.state.detail)}</li>" for entry in loose]
-    return f'<p class="bad">Not converged, what was asked for was not reached:</p><ul class="bad">{"".join(lines)}</ul>' if lines else ""
+    """Runs that failed, and those whose numbers are to be read with care."""
+    failed = [f"{run.name}: {state.detail}" for run, state in results.unfinished if state.phase is Phase.FAILED]
+    loose = [f"{entry.run.name}: {entry.state.detail}" for entry in results.entries if not entry.converged]
+    return page.notices("Failed", failed) + page.notices("Not converged, what was asked for was not reached", loose)
 
 
 def conventions(results: Results) -> str:
@@ -87,7 +107,7 @@ def conventions(results: Results) -> str:
     rates = "Cm_alphadot = dCm / d(alphadot d/2V), Cm_q = dCm / d(q d/2V)"
     size = f"Length {reference['length']:g}, area {reference['area']:.6g}"
     pairs = [
-        ("Units", f"Derivatives per radian; rates times {reference['rate']}: {rates}."),
+        ("Units", f"Derivatives per radian; rates times {reference['rate'].removeprefix('times ')}: {rates}."),
         ("Reference", f"{size}, of the whole configuration ({reference['model']} model)."),
         ("Axes", f"{reference['axes']}. CA aft, CN up, Cm nose up."),
         ("Moment centre", f"Computed about ({center}), on the axis from the nose; moved to other centres by moment transfer."),
@@ -115,7 +135,41 @@ def beside_the_paper(results: Results, folder: Path) -> str:
     return note + "".join(write(table, folder) for table in tables.table_one_tables(results))
 
 
+BARS = "Bars are the uncertainty that the program gives for each derivative, a half width: "
+
+
+def against_alpha(results: Results, folder: Path) -> str:
+    family, _ = curves.families(results.points, folder)
+    drawn = page.grid(family.pictures(curves.STATIC))
+    return page.legend(family.legend()) + drawn if drawn else ""
+
+
+def over_mach(results: Results, folder: Path) -> str:
+    _, family = curves.families(results.points, folder)
+    pitch, side = page.grid(family.pictures(curves.PITCH)), page.grid(family.pictures(curves.SIDE))
+    if not pitch:
+        return ""
+    some = f" Lines are shown for {len(curves.few(family.values))} of {len(family.values)} values." if len(family.values) > 8 else ""
+    note = f'<p class="note">{escape(BARS + results.uncertainty)}. Moments about the centre of the run.{some}</p>'
+    return page.legend(family.legend()) + pitch + (f"<h3>The side</h3>{side}" if side else "") + note
+
+
+def motion(results: Results) -> tuple[str, str]:
+    """The modes of motion where the sweep file says what the body weighs, and their warnings."""
+    if not results.sweep.content.get("mass") or not any(point.is_good and point.derivatives for point in results.points):
+        return "", ""
+    _, rows = dynamics.dynamics(results.sweep, results.program)
+    head, *cells = dynamics.shown(rows)
+    cells = [[row["state"], *(cell.replace("-", "−") for cell in line)] for row, line in zip(rows, cells)]
+    name = "Small disturbances of a straight path without thrust; margins in lengths; the sum damps where it is below the column beside it"
+    table = tables.Table("dynamics", name, ["state", *head], cells, [""] + ["n"] * len(head))
+    lines = list(dict.fromkeys(line for row in rows for line in dynamics.warnings(row)))
+    return page.table(table), page.notices("Motion", lines)
+
+
 def against_mach(results: Results, folder: Path) -> str:
+    if not results.published:
+        return over_mach(results, folder)
     drawn = page.grid(figures.mach_figures(results, folder))
     note = f"Bars are the uncertainty that the program gives: {results.uncertainty}."
     if results.published:
@@ -133,7 +187,8 @@ def loops(results: Results, folder: Path) -> str:
 
 
 def derivatives(results: Results, folder: Path) -> str:
-    return "".join(write(table, folder) for table in (tables.derivative_table(results), tables.force_table(results)))
+    shown = (tables.derivative_table(results), tables.side_table(results), tables.force_table(results))
+    return "".join(write(table, folder) for table in shown if table.rows)
 
 
 def unfinished(results: Results) -> str:

@@ -10,10 +10,10 @@ from pathlib import Path
 import numpy as np
 
 import table_one
+from sweep.database import Point, read_points
 from sweep.derive import Derivatives, Runs
 from sweep.plan import Run, Sweep
-from sweep.state import RESULT, Phase, State, read_json
-from sweep.status import states
+from sweep.state import RESULT, Phase, State
 from table_one import Row, column, fitted_center
 
 
@@ -82,15 +82,18 @@ class Results:
     entries: list[Entry]
     unfinished: list[tuple[Run, State]]
     published: Published | None
+    points: list[Point]
 
     @staticmethod
     def of(sweep: Sweep, program: Path) -> Results:
-        found = states(sweep)
+        points = read_points(sweep)
+        own = [point for point in points if not point.image]
         ended = (Phase.DONE, Phase.SHORT)
-        entries = [Entry(run, state, read_json(run.folder / RESULT)) for run, state in found if state.phase in ended]
+        entries = [Entry(point.run, point.state, point.result) for point in own if point.state.phase in ended]
         entries.sort(key=lambda entry: (entry.converged, entry.series, entry.mach))
-        unfinished = [(run, state) for run, state in found if state.phase not in ended]
-        return Results(sweep, program, entries, unfinished, Published.of(sweep))
+        unfinished = [(point.run, point.state) for point in own if point.state.phase not in ended]
+        unfinished.sort(key=lambda pair: pair[1].phase is not Phase.FAILED)
+        return Results(sweep, program, entries, unfinished, Published.of(sweep), points)
 
     @cached_property
     def with_derivatives(self) -> list[Entry]:

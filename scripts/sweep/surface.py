@@ -13,11 +13,12 @@ import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.collections import PolyCollection
 
-from sweep.figures import Picture
+from sweep.picture import Picture
 from sweep.results import Entry, Results
 
 FILE = "surface.vtkhdf"
 WIDTH = 9.0
+MOST = 8  # pictures of the pressure: each is some 100 kB of the page
 
 
 @dataclass(frozen=True)
@@ -73,11 +74,15 @@ def draw(axes: plt.Axes, triangles: np.ndarray, **style: object) -> PolyCollecti
 
 
 def pressure_pictures(results: Results, folder: Path) -> list[Picture]:
-    """One a case: the method does not matter to a steady flow, so the first of each Mach number, angle and mesh."""
+    """One a case, of some of them: the method does not matter to a steady flow, so the first of each Mach number, angles and mesh."""
     cases: dict[tuple, Entry] = {}
     for entry in sorted(results.entries, key=lambda entry: entry.run.is_motion):
         if (entry.run.folder / FILE).exists():
-            cases.setdefault((entry.mach, entry.run.alpha, entry.run.mesh), entry)
+            cases.setdefault((entry.mach, entry.run.alpha, entry.run.beta, entry.run.mesh), entry)
+    chosen = sorted(cases)
+    if len(chosen) > MOST:
+        chosen = [chosen[round(i * (len(chosen) - 1) / (MOST - 1))] for i in range(MOST)]
+    cases = {key: cases[key] for key in chosen}
     read = lambda entry: Surface.read(entry.run.folder / FILE, entry.result["reference"]["length"])
     values = {}
     for key, entry in cases.items():

@@ -7,6 +7,7 @@ import io
 import math
 from dataclasses import dataclass, field
 
+from sweep.database import SIDE
 from sweep.results import Entry, Results, finite, relative
 from sweep.text import duration
 from table_one import FREE_FLIGHT_CENTER
@@ -24,9 +25,15 @@ class Table:
     rows: list[list[Cell]]
     formats: list[str]
     marked: set[int] = field(default_factory=set)  # columns of errors, shown apart
+    joined: set[int] = field(default_factory=set)  # columns of uncertainties, shown in the cell before them
+    hidden: set[int] = field(default_factory=set)  # columns of the file alone
 
     def shown(self, row: list[Cell]) -> list[str]:
-        return [show(cell, form) for cell, form in zip(row, self.formats)]
+        out = [show(cell, form) for cell, form in zip(row, self.formats)]
+        for index in self.joined:
+            if out[index] != "–":
+                out[index - 1] += f" ± {out[index]}"
+        return out
 
     def csv(self) -> str:
         text = io.StringIO()
@@ -102,38 +109,56 @@ def table_one_tables(results: Results) -> list[Table]:
 def derivative_table(results: Results) -> Table:
     """Every derivative of the moment and the normal force, about the centre of the run."""
     names = ["CN_alpha", "Cm_alpha", "CN_alphadot", "Cm_alphadot", "CN_q", "Cm_q"]
-    columns = ["run", "Mach", "alpha, deg", "centre x, d", *(word for name in names for word in (name, "±"))]
+    columns = ["Mach", "alpha, deg", *(word for name in names for word in (name, "±")), "centre x, d", "run"]
     rows = []
     for entry in results.with_derivatives:
         found = entry.result["derivatives"]
-        cells: list[Cell] = [entry.label, entry.mach, entry.run.alpha, results.here(entry).center]
+        cells: list[Cell] = [entry.mach, entry.run.alpha]
         for name in names:
             cells += [found[name]["value"], found[name]["uncertainty"]] if name in found else [None, None]
-        rows.append(cells)
-    formats = ["", ".2f", "g", "g", *[".3f", ".1g"] * 2, *[".2f", ".1g"] * 4]
+        rows.append([*cells, results.here(entry).center, entry.label])
+    formats = [".4g", ".4g", *[".3f", ".1g"] * 2, *[".2f", ".1g"] * 4, "g", ""]
     return Table(
         "derivatives",
         f"Derivatives, per rad; rates times length / 2V; moments about the centre of the run; ±: {results.uncertainty}",
         columns,
         rows,
         formats,
+        joined=set(range(3, 14, 2)),
+        hidden={14},
     )
+
+
+def side_table(results: Results) -> Table:
+    """Derivatives of the side of full models."""
+    names = [name for name in SIDE if any(name in entry.result["derivatives"] for entry in results.with_derivatives)]
+    columns = ["Mach", "alpha, deg", *(word for name in names for word in (name, "±")), "run"]
+    rows = []
+    for entry in results.with_derivatives:
+        found = entry.result["derivatives"]
+        cells: list[Cell] = [entry.mach, entry.run.alpha]
+        for name in names:
+            cells += [found[name]["value"], found[name]["uncertainty"]] if name in found else [None, None]
+        rows.append([*cells, entry.label])
+    formats = [".4g", ".4g", *[".3g", ".1g"] * len(names), ""]
+    joined = set(range(3, 2 + 2 * len(names), 2))
+    return Table("side", "Derivatives of the side, per rad; rates times length / 2V", columns, rows if names else [], formats, joined=joined)
 
 
 def force_table(results: Results) -> Table:
     """Forces and moment of the steady flow."""
-    columns = ["run", "Mach", "alpha, deg", "CA", "CN", "Cm", "centre x, d"]
+    columns = ["Mach", "alpha, deg", "CA", "CN", "Cm", "centre x, d", "run"]
     rows = []
     for entry in results.entries:
         forces, reference = entry.result["forces"], entry.result["reference"]
         center = reference["moment_center"][0] / reference["length"]
-        rows.append([entry.label, entry.mach, entry.run.alpha, forces["CA"], forces["CN"], forces["Cm"], center])
+        rows.append([entry.mach, entry.run.alpha, forces["CA"], forces["CN"], forces["Cm"], center, entry.label])
     return Table(
         "forces",
         "Steady flow: axial and normal force, pitching moment",
         columns,
         rows,
-        ["", ".2f", "g", ".5f", ".5f", ".5f", "g"],
+        [".4g", ".4g", ".5f", ".5f", ".5f", "g", ""],
     )
 
 

@@ -8,7 +8,11 @@ import re
 import unittest
 from html.parser import HTMLParser
 
+from stub_runs import finish
+from test_table import model
 from workspace import SCRIPTS, Workspace
+
+from sweep.plan import read_sweep
 
 
 class References(HTMLParser):
@@ -66,6 +70,31 @@ class Report(Workspace):
         self.assertIn("±: solver only; mesh not assessed", caption)
         names = [row["run"] for row in csv.DictReader(lines)]
         self.assertEqual(names, ["short_m3_a1.5 (not converged)", "derivatives_m2_a1.5"])
+
+    def test_many_conditions_of_a_full_model(self) -> None:
+        """Lines over both variables with one legend, the side, motion; what failed and what is not converged before everything."""
+        mass = "[[mass]]\nmass = 20\ninertia = [0.05, 6, 6]\ncenter = 0.5\n"
+        self.write(mass + "[[runs]]\nmach = {from = 1.2, to = 3, count = 10}\nalpha = [0, 4]\n")
+        runs = read_sweep(self.file).runs
+        ends = {runs[3].name: "failed", runs[5].name: "not_converged"}
+        finish(runs, model, lambda run: ends.get(run.name, "converged"))
+        self.sweep("report")
+        text = (self.folder / "runs" / "report.html").read_text()
+        self.refers_to_nothing_outside(text)
+        places = [text.index(words) for words in (f"{runs[3].name}: no such mesh", f"{runs[5].name}: the steady march", "static margin", "<h2")]
+        self.assertEqual(places, sorted(places))
+        for name in ("alpha_CN", "alpha_x_cp", "mach_margin", "mach_damping", "mach_Cn_beta", "mach_Cl_p", "convergence_steady"):
+            self.assertTrue((self.folder / "runs" / "report" / f"{name}.svg").exists(), name)
+        self.assertFalse((self.folder / "runs" / "report" / "alpha_CY.svg").exists())  # there is no sideslip
+        # A colour for each of eight Mach numbers of ten, and for each angle; and the mark, in both.
+        self.assertEqual(text.count('class="legend"'), 2)
+        self.assertEqual(len(re.findall(r"Mach [\d.]+</span>", text)), 8)
+        self.assertEqual(len(re.findall(r"α = \d°</span>", text)), 2)
+        self.assertEqual(text.count("not converged</span>"), 2)
+        self.assertIn("a half width: solver and mesh", text)
+        # Value and half width in one cell: CN_alpha = 7 (1 - 0.3) / 1.2 and 1 % of it.
+        self.assertIn("<td>4.083 ± 0.04</td>", text)
+        self.assertIn("damped below", text)
 
     def refers_to_nothing_outside(self, text: str) -> None:
         references = References()
