@@ -142,7 +142,8 @@ def side_table(results: Results) -> Table:
         rows.append([*cells, entry.label])
     formats = [".4g", ".4g", *[".3g", ".1g"] * len(names), ""]
     joined = set(range(3, 2 + 2 * len(names), 2))
-    return Table("side", "Derivatives of the side, per rad; rates times length / 2V", columns, rows if names else [], formats, joined=joined)
+    caption = "Derivatives of the side, per rad; rates times length / 2V"
+    return Table("side", caption, columns, rows if names else [], formats, joined=joined, hidden={len(columns) - 1})
 
 
 def force_table(results: Results) -> Table:
