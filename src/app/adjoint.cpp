@@ -26,7 +26,10 @@ namespace {
 std::vector<Functional> functionals_of(const std::vector<std::string>& names, const Case& settings) {
   if (names.empty()) return all_functionals(settings);
   std::vector<Functional> out;
-  for (const auto& name : names) out.push_back(parse_functional(name, "--of", settings, settings.boundary));
+  std::vector<Problem> problems;
+  for (const auto& name : names)
+    collect(problems, [&] { out.push_back(parse_functional(name, "--of", settings, settings.boundary)); });
+  if (!problems.empty()) throw InputError(std::move(problems));
   return out;
 }
 
@@ -114,10 +117,7 @@ RunStatus adjoint_verb(const CaseArguments& arguments, const std::vector<std::st
       rows = solver.rows(adjoints, shortfalls);
       for (auto& shortfall : shortfalls) record.fall_short(std::move(shortfall));
       if (settings.output.flow) write_fields(run, functionals, adjoints);
-      if (!solver.has_shape())
-        spdlog::warn("no sensitivity to the shape: it needs space.gradient = \"least_squares\"");
-      else if (settings.output.surface)
-        write_surface_sensitivity(run, solver, adjoints);
+      if (settings.output.surface) write_surface_sensitivity(run, solver, adjoints);
     }
     linear_cpu = timer.cpu();
     return is_done ? marched : RunStatus::interrupted;

@@ -3,12 +3,15 @@
 
 #include <fmt/format.h>
 
+#include <cerrno>
 #include <csignal>
 #include <cstdio>
 #include <functional>
 #include <map>
 #include <new>
+#include <stdexcept>
 #include <string>
+#include <system_error>
 
 #include "app/centers.hpp"
 #include "app/companion.hpp"
@@ -46,6 +49,26 @@ int guarded(const Communicator& comm, const std::function<RunStatus()>& verb) {
     if (comm.size() > 1) MPI_Abort(comm.handle(), exit_code(RunStatus::error));
   }
   return exit_code(RunStatus::error);
+}
+
+/// A verb whose result is what it prints: when that cannot be written it has failed.
+RunStatus printed(const Communicator& comm, const std::function<RunStatus()>& verb) {
+  RunStatus status = RunStatus::error;
+  std::string fault;
+  try {
+    status = verb();
+    errno = 0;
+    if (std::fflush(stdout) != 0) fault = std::generic_category().message(errno);
+  } catch (const std::runtime_error& error) {
+    if (std::ferror(stdout) == 0) throw;
+    fault = error.what();
+  }
+  comm.on_root([&] {
+    if (!fault.empty())
+      throw InputError("standard output", 0, fault,
+                       "what was printed is not whole: print it to another place");
+  });
+  return status;
 }
 
 /// Checks an option; unlike CLI::Range it does not let what is not a number pass.
@@ -216,12 +239,14 @@ int main(int argc, char** argv) {
     if (derivatives) return derivatives_verb(arguments, comm);
     if (adjoint) return adjoint_verb(arguments, loads, comm);
     if (frequency) return frequency_verb(arguments, reduced_frequencies, comm);
-    if (check) return check_verb(arguments, whole_case, comm);
     if (partition) return partition_verb(cut, comm);
-    if (derive) return derive_verb(derivation, comm);
-    if (info) return info_verb(file, comm);
-    if (watch) return watch_verb(file, once, interval, comm);
-    if (keys && comm.is_root()) fmt::print("{}", describe_case_keys());
-    return RunStatus::completed;
+    return printed(comm, [&] {
+      if (check) return check_verb(arguments, whole_case, comm);
+      if (derive) return derive_verb(derivation, comm);
+      if (info) return info_verb(file, comm);
+      if (watch) return watch_verb(file, once, interval, comm);
+      if (keys && comm.is_root()) fmt::print("{}", describe_case_keys());
+      return RunStatus::completed;
+    });
   });
 }

@@ -197,7 +197,7 @@ class CaseReader {
                               kind == MotionKind::step_q || kind == MotionKind::table;
     if (has_duration && c.unsteady.duration <= 0)
       complain_about({"unsteady.duration", "motion.kind"}, motion + " needs unsteady.duration > 0");
-    if (has_duration && c.unsteady.steps < 1)
+    if (kind == MotionKind::table && c.unsteady.steps < 1)
       complain_about({"unsteady.steps", "motion.kind"}, motion + " needs unsteady.steps >= 1");
     check_derivatives(c);
   }

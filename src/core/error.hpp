@@ -31,6 +31,16 @@ class InputError : public std::runtime_error {
   std::vector<Problem> problems_;
 };
 
+/// Adds what is wrong in `look` to the problems.
+template <class Look>
+void collect(std::vector<Problem>& problems, const Look& look) {
+  try {
+    look();
+  } catch (const InputError& error) {
+    problems.insert(problems.end(), error.problems().begin(), error.problems().end());
+  }
+}
+
 /// Memory does not suffice, as an error that a user can mend.
 Problem out_of_memory(int rank);
 

@@ -134,11 +134,6 @@ std::vector<TableRow> AdjointDerivatives::rows(const Adjoints& adjoints,
   return rows;
 }
 
-bool AdjointDerivatives::has_shape() const {
-  const auto& space = flow_.settings().space;
-  return space.order == 1 || space.gradient == GradientKind::least_squares;
-}
-
 SurfaceSensitivity AdjointDerivatives::by_shape(const Functional& functional, const Adjoints& adjoints) {
   const auto weights = weights_of(functional, flow_.setup().domain.patch_names, flow_.settings());
   return {flow_.discretization(), flow_.communicator(),

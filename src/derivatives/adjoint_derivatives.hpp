@@ -36,8 +36,6 @@ class AdjointDerivatives {
   /// not come far to rest none is: what it leaves in the derivatives is in no uncertainty here.
   std::vector<TableRow> rows(const Adjoints& adjoints, std::vector<std::string>& shortfalls) const;
 
-  /// Whether there is a sensitivity to the shape: gradients by Green and Gauss have none.
-  bool has_shape() const;
   /// By the place of every point of the walls, of a functional that is none of rates. Collective.
   SurfaceSensitivity by_shape(const Functional& functional, const Adjoints& adjoints);
 

@@ -114,14 +114,22 @@ constexpr Real step_safety = 2, of_other_components = 0.3;
 /// Decades by which a derivative may be worse converged than the flow that it is about.
 constexpr Real lost_decades = 3;
 
-/// Bound of what a deeply converged steady residual still does: a share of each variable's largest entry.
-DerivativeSetOf<Real> small_steady_part(const DerivativeSet& derivatives, Real orders) {
+/// What is large beside a column of derivatives. Forces and moments count alike with an arm between them that
+/// is the body's size, `arm` reference lengths, so that no choice of these matters.
+Coefficients largest_of(const Coefficients& column, Real arm) {
+  const Coefficients unit{1, 1, 1, arm, arm, arm};
+  Real largest = 0;
+  for (int i = 0; i < column.size(); ++i) largest = std::max(largest, std::abs(column[i]) / unit[i]);
+  return largest * unit;
+}
+
+/// Bound of what a deeply converged steady residual still does: a share of what is large in each variable.
+DerivativeSetOf<Real> small_steady_part(const DerivativeSet& derivatives, Real orders, Real arm) {
   DerivativeSetOf<Real> out;
   for (const auto& [variable, column] : derivatives) {
-    Real largest = 0;
-    for (int i = 0; i < column.size(); ++i) largest = std::max(largest, std::abs(column[i].value));
-    for (int i = 0; i < column.size(); ++i)
-      out[variable][i] = std::pow(10.0, lost_decades - orders) * largest;
+    Coefficients values;
+    for (int i = 0; i < column.size(); ++i) values[i] = column[i].value;
+    out[variable] = std::pow(10.0, lost_decades - orders) * largest_of(values, arm);
   }
   return out;
 }
@@ -129,7 +137,8 @@ DerivativeSetOf<Real> small_steady_part(const DerivativeSet& derivatives, Real o
 /// How much the derivatives change when the steady flow becomes one step of Newton's method better. Nothing
 /// when the run was stopped.
 DerivativeSetOf<Real> steady_part(FlowCase& flow, SensitivitySolver& solver, const Responses& responses,
-                                  const DerivativeSet& derivatives, const std::function<bool()>& go_on) {
+                                  const DerivativeSet& derivatives, Real arm,
+                                  const std::function<bool()>& go_on) {
   const NewtonStep step(flow.iteration(), flow.conditions(), solver);
   if (step.was_stopped()) return {};
   auto settings = flow.settings().derivatives;
@@ -147,14 +156,12 @@ DerivativeSetOf<Real> steady_part(FlowCase& flow, SensitivitySolver& solver, con
     if (changed.empty()) return {};
     for (std::size_t i = 0; i < group.size(); ++i) {
       const auto column = column_of(group[i], changed[i], flow.settings());
-      CoefficientsOf<Real> change;
-      Real largest = 0;
-      for (int k = 0; k < column.size(); ++k) {
-        change[k] = std::abs(column[k].value - derivatives.at(group[i])[k].value);
-        largest = std::max(largest, change[k]);
-      }
+      Coefficients change;
       for (int k = 0; k < column.size(); ++k)
-        out[group[i]][k] = step_safety * (change[k] + of_other_components * largest);
+        change[k] = std::abs(column[k].value - derivatives.at(group[i])[k].value);
+      const auto largest = largest_of(change, arm);
+      for (int k = 0; k < column.size(); ++k)
+        out[group[i]][k] = step_safety * (change[k] + of_other_components * largest[k]);
       solved[{group[i]}] = std::move(changed[i]);
     }
   }
@@ -180,13 +187,14 @@ LinearDerivatives linear_derivatives(FlowCase& flow, Responses& responses, const
   auto& linear = estimated.parts.emplace_back(UncertaintyPart{"linear", {}});
   for (const auto& [variable, column] : estimated.derivatives)
     for (int i = 0; i < column.size(); ++i) linear.half_width[variable][i] = column[i].uncertainty;
+  const Real arm = solver.body_size() / flow.settings().reference.length;
   if (flow.steady_orders() < deep_steady_orders) {
     spdlog::info("once more about a flow one step of Newton's method nearer to the steady one");
-    auto half_width = steady_part(flow, solver, responses, estimated.derivatives, observer.go_on);
+    auto half_width = steady_part(flow, solver, responses, estimated.derivatives, arm, observer.go_on);
     if (half_width.empty()) return ended();
     estimated.add("steady", std::move(half_width));
   } else {
-    estimated.add("steady", small_steady_part(estimated.derivatives, flow.steady_orders()));
+    estimated.add("steady", small_steady_part(estimated.derivatives, flow.steady_orders(), arm));
   }
   if (!settings.limiter_uncertainty) return out;
 

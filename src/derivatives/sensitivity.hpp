@@ -53,6 +53,9 @@ class SensitivitySolver {
   /// From now on the problems leave the limiter's reaction out: its factors stay those of the steady flow.
   void hold_limiter() { basis_.linearisation.hold_limiter(); }
 
+  /// Diagonal of the box around the body, in the mesh's scaled unit.
+  Real body_size() const { return basis_.body_size; }
+
   /// Nothing when `go_on` said no. Throws DivergedError when a march grows: the steady state then hides an
   /// unstable cell. Collective.
   std::vector<Sensitivity> solve(const std::vector<SensitivityProblem>& problems);

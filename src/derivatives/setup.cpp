@@ -50,16 +50,6 @@ void add_patch_problems(const Case& settings, const std::vector<std::string>& pa
   }
 }
 
-/// Adds what is wrong in `look` to the problems.
-template <class Look>
-void collect(std::vector<Problem>& problems, const Look& look) {
-  try {
-    look();
-  } catch (const InputError& error) {
-    problems.insert(problems.end(), error.problems().begin(), error.problems().end());
-  }
-}
-
 /// The table of a motion from its text.
 MotionTable table_of(const Case& settings, const std::string& text) {
   auto out = parse_motion_table(text, settings.motion.table_file);
@@ -156,8 +146,8 @@ Setup load_setup(const Case& settings, const Communicator& comm) {
   }
   out.configuration = survey(out.domain, out.patch_kinds, settings, comm);
   comm.on_all([&] {
-    auto [problems, warnings] =
-        judge(out.configuration, out.domain.patch_names, settings, settings.mesh.scale, settings.file);
+    auto [problems, warnings] = judge(out.configuration, out.domain.patch_names, out.patch_kinds, settings,
+                                      settings.mesh.scale, settings.file);
     if (!problems.empty()) throw InputError(std::move(problems));
     out.warnings = std::move(warnings);
   });

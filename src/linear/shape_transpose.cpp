@@ -3,13 +3,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <stdexcept>
 
 #include "euler/boundary.hpp"
 #include "linear/tangent_transpose.hpp"
 #include "linear/transposed_product.hpp"
+#include "space/corner_slope.hpp"
 #include "space/face_geometry.hpp"
+#include "space/gradient.hpp"
 #include "space/limiter.hpp"
+#include "space/symmetric3.hpp"
 
 namespace alphadot {
 
@@ -90,6 +92,8 @@ class ShapeTranspose {
         second_order_(discretization_.space().order > 1),
         reconstruction_(discretization_, linearisation.communicator()),
         points_(domain_) {
+    if (second_order_ && discretization_.space().gradient == GradientKind::green_gauss)
+      by_values_.resize(static_cast<std::size_t>(domain_.owned_points));
     reconstruction_.update(flow, discretization_.space().order);
   }
 
@@ -184,13 +188,22 @@ class ShapeTranspose {
         for (int i = 0; i < 5; ++i)
           adjoint.along[axis][i] = of_limited[static_cast<std::size_t>(cell)].along[axis][i].d[0];
       if (linearisation_.limiter_slopes().empty()) {
-        fit(cell, reconstruction_[cell], adjoint);
+        unlimited(cell, reconstruction_[cell], adjoint);
       } else {
         const LimiterSlope& slope = linearisation_.limiter_slopes()[static_cast<std::size_t>(cell)];
         limiter(cell, slope, adjoint);
-        fit(cell, slope.gradient, adjoint);
+        unlimited(cell, slope.gradient, adjoint);
       }
     }
+    for (std::size_t point = 0; point < by_values_.size(); ++point)
+      point_value(static_cast<Index>(point), by_values_[point]);
+  }
+
+  void unlimited(Index cell, const Gradient<Real>& gradients, const Gradient<Real>& adjoint) {
+    if (by_values_.empty())
+      fit(cell, gradients, adjoint);
+    else
+      corner_slopes(cell, gradients, adjoint);
   }
 
   /// Turns the adjoint of the limited gradient into that of the gradient. The way there: phi(delta) g with
@@ -220,9 +233,7 @@ class ShapeTranspose {
     for (int i = 0; i < 5; ++i) {
       const auto entry = static_cast<std::size_t>(i);
       gradient[entry] = gradient_of(gradients, i);
-      const Vec3 of = gradient_of(adjoint, i);
-      right[entry] = {a.xx * of.x + a.xy * of.y + a.xz * of.z, a.xy * of.x + a.yy * of.y + a.yz * of.z,
-                      a.xz * of.x + a.yz * of.y + a.zz * of.z};
+      right[entry] = a * gradient_of(adjoint, i);
     }
     for (const Index point : domain_.cell_points[cell])
       for (const Index other : domain_.point_cells[point]) {
@@ -237,6 +248,70 @@ class ShapeTranspose {
         points_.add_center(other, by_distance);
         points_.add_center(cell, -by_distance);
       }
+  }
+
+  /// The way there: g = sum over corners of value times slope. As (x_k - x_0) . g = q_k - q_0 is linear in g,
+  /// a corner that moves by d changes g by -slope (g . d).
+  void corner_slopes(Index cell, const Gradient<Real>& gradients, const Gradient<Real>& adjoint) {
+    const auto& corners = domain_.cell_points[cell];
+    for (std::size_t corner = 0; corner < corners.size(); ++corner) {
+      const Vec3 slope = corner_slope(domain_, cell, corner);
+      auto& by_value = by_values_[static_cast<std::size_t>(corners[corner])];
+      Vec3 by_corner;
+      for (int i = 0; i < 5; ++i) {
+        const Real of_slope = dot(gradient_of(adjoint, i), slope);
+        by_value[i] += of_slope;
+        by_corner -= of_slope * gradient_of(gradients, i);
+      }
+      points_.add_point(corners[corner], by_corner);
+    }
+  }
+
+  /// The way there: with d = c_j - x for the cells j around the point, weights w = 1 + lambda . d and the
+  /// mean of q_j by them. lambda solves (sum d d^T) lambda = -sum d, then is cut to `kept` of itself by the
+  /// cell with the largest |lambda . d|.
+  void point_value(Index point, const Primitive<Real>& by_value) {
+    const auto cells = domain_.point_cells[point];
+    const Vec3 x = domain_.points[point], lambda = discretization_.point_moments(point).lambda;
+    Primitive<Real> mean{};
+    Real weights = 0, largest = 0;
+    Vec3 first, farthest;
+    Symmetric3 second{};
+    for (const Index cell : cells) {
+      const Vec3 d = domain_.center[cell] - x;
+      const Real correction = dot(lambda, d);
+      for (int i = 0; i < 5; ++i) mean[i] += (1 + correction) * flow_[cell][i];
+      weights += 1 + correction;
+      first += d;
+      add_square(second, d);
+      if (std::abs(correction) < largest) continue;
+      largest = std::abs(correction);
+      farthest = d;
+    }
+    if (norm(lambda) == 0) return;  // the plain mean
+    for (int i = 0; i < 5; ++i) mean[i] /= weights;
+    const auto by_weight = [&](Index cell) {
+      Real sum = 0;
+      for (int i = 0; i < 5; ++i) sum += by_value[i] * (flow_[cell][i] - mean[i]);
+      return sum / weights;
+    };
+    Vec3 by_lambda;
+    for (const Index cell : cells) by_lambda += by_weight(cell) * (domain_.center[cell] - x);
+
+    const Symmetric3 inverse_second = inverse(second);
+    const Vec3 uncut = -(inverse_second * first);
+    const Real kept = norm(lambda) / norm(uncut);
+    const bool is_cut = kept < 1 - 1e-12;
+    const Real by_largest = is_cut ? dot(by_lambda, lambda) / dot(lambda, farthest) : 0;
+    const Vec3 by_moments = kept * (inverse_second * (by_lambda - by_largest * farthest));
+    for (const Index cell : cells) {
+      const Vec3 d = domain_.center[cell] - x;
+      Vec3 by_distance =
+          by_weight(cell) * lambda - (1 + dot(uncut, d)) * by_moments - dot(by_moments, d) * uncut;
+      if (is_cut && norm(d - farthest) == 0) by_distance -= by_largest * lambda;
+      points_.add_center(cell, by_distance);
+      points_.add_point(point, -by_distance);
+    }
   }
 
   void turning_axes() {
@@ -256,6 +331,7 @@ class ShapeTranspose {
   Vec3 moment_center_;
   bool second_order_;
   Reconstruction<Real> reconstruction_;
+  std::vector<Primitive<Real>> by_values_;  ///< [points] of Green and Gauss's sums, those of owned cells
   PointSensitivity points_;
 };
 
@@ -264,9 +340,6 @@ class ShapeTranspose {
 std::vector<Vec3> shape_transpose(const Linearisation& linearisation, FlowField<Real>& flow,
                                   std::span<const Conserved<Real>> adjoint, std::span<const Load> weights,
                                   const Vec3& moment_center) {
-  const auto& space = linearisation.discretization().space();
-  if (space.order > 1 && space.gradient == GradientKind::green_gauss)
-    throw std::logic_error("the shape's sensitivity needs gradients by least squares");
   return ShapeTranspose(linearisation, flow, adjoint, weights, moment_center).apply();
 }
 

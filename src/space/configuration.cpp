@@ -39,8 +39,10 @@ class Surveyor {
     find_extent();
     look_at_regions();
     look_at_walls();
+    look_at_jets();
     look_at_cells();
     find_planes();
+    find_open_sides();
     look_at_far_field();
     out_.quality = mesh_quality(domain_, comm_);
     to_reference_lengths();
@@ -145,6 +147,20 @@ class Surveyor {
       out_.body_length = std::max(out_.body_length, out_.body.upper[d] - out_.body.lower[d]);
   }
 
+  void look_at_jets() {
+    const std::size_t patches = domain_.patch_names.size();
+    std::vector<Real> sums(2 * patches, 0);  // what looks ahead and all, by patch
+    for_each_face(BoundaryKind::jet, [&](std::size_t face) {
+      const Vec3 out_of_body = -domain_.boundary_normal[face];
+      const auto patch = static_cast<std::size_t>(domain_.boundary_faces[face].patch);
+      if (out_of_body.x < 0) sums[patch] += norm(out_of_body);
+      sums[patches + patch] += norm(out_of_body);
+    });
+    comm_.sum(std::span<Real>(sums));
+    for (std::size_t patch = 0; patch < patches; ++patch)
+      out_.fore_share.push_back(share(sums[patch], sums[patches + patch]));
+  }
+
   static Real share(Real sum, Real magnitude) { return magnitude > 0 ? std::abs(sum) / magnitude : 0; }
 
   void look_at_cells() {
@@ -186,6 +202,45 @@ class Surveyor {
     for (const auto& a : out_.planes)
       for (const auto& b : out_.planes)
         out_.is_section |= a.cuts_body && b.cuts_body && dot(a.normal, b.normal) < -0.999;
+  }
+
+  /// Sides of the box around all points: all of the mesh lies on one side of each. Bodies are the walls of
+  /// patches that do not lie in any, as walls of a tunnel do.
+  void find_open_sides() {
+    std::vector<SymmetryPlane> sides;
+    for (int d = 0; d < 3; ++d)
+      for (const Real sign : {-1.0, 1.0}) {
+        auto& side = sides.emplace_back();
+        side.normal[d] = sign;
+        side.offset = sign < 0 ? -out_.domain.lower[d] : out_.domain.upper[d];
+      }
+    const std::size_t patches = kinds_.size();
+    std::vector<Real> lies_in_side(sides.size() * patches, 0), ends_in_side(sides.size() * patches, 0);
+    for (std::size_t side = 0; side < sides.size(); ++side)
+      for (std::size_t face = 0; face < domain_.boundary_faces.size(); ++face) {
+        const std::size_t at = side * patches + static_cast<std::size_t>(domain_.boundary_faces[face].patch);
+        const auto corners_there =
+            std::ranges::count_if(corners(face), [&](const Vec3& x) { return is_on(sides[side], x); });
+        if (corners_there == 3) lies_in_side[at] = 1;
+        if (corners_there == 2) ends_in_side[at] = 1;
+      }
+    comm_.sum(std::span<Real>(lies_in_side));
+    comm_.sum(std::span<Real>(ends_in_side));
+    const auto is_body = [&](std::size_t patch) {
+      bool out = kinds_[patch] == BoundaryKind::wall;
+      for (std::size_t side = 0; side < sides.size(); ++side)
+        out &= lies_in_side[side * patches + patch] == 0;
+      return out;
+    };
+    for (std::size_t side = 0; side < sides.size(); ++side) {
+      bool has_end = false;
+      for (std::size_t patch = 0; patch < patches; ++patch)
+        has_end |= is_body(patch) && ends_in_side[side * patches + patch] > 0;
+      if (!has_end || sides[side].normal.x != 0) continue;
+      for (std::size_t patch = 0; patch < patches; ++patch)
+        if (lies_in_side[side * patches + patch] > 0 && kinds_[patch] != BoundaryKind::symmetry)
+          out_.open_sides.push_back({static_cast<Index>(patch), sides[side]});
+    }
   }
 
   bool is_on(const SymmetryPlane& plane, const Vec3& at) const {

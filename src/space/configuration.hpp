@@ -22,6 +22,12 @@ struct SymmetryPlane {
   bool cuts_body = false;  ///< walls end in it
 };
 
+/// A side of the mesh along the x axis in which the body ends though no symmetry is imposed there.
+struct OpenSide {
+  Index patch = 0;      ///< index into Subdomain::patch_names
+  SymmetryPlane plane;  ///< what the side would be a plane of
+};
+
 /// A region of cells and the patches around it.
 struct RegionFacts {
   Region region;
@@ -41,9 +47,10 @@ struct Configuration {
   Box body;               ///< around all walls
   Real body_length = 0;   ///< the longest side of that box
   Real wall_area = 0;
-  Vec3 projected_area;         ///< of the walls along x, y, z; parts behind each other count each
-  Vec3 net_area;               ///< sum of the walls' area vectors out of the body: zero when they close it
-  std::vector<Real> aft_area;  ///< [patches] of wall faces within `aft_angle` of looking aft
+  Vec3 projected_area;           ///< of the walls along x, y, z; parts behind each other count each
+  Vec3 net_area;                 ///< sum of the walls' area vectors out of the body: zero when they close it
+  std::vector<Real> aft_area;    ///< [patches] of wall faces within `aft_angle` of looking aft
+  std::vector<Real> fore_share;  ///< [patches] of a jet's area, what looks ahead
   /// How unlike the walls' lower half (z below the moment centre) is to the upper one, from 0 for mirror
   /// images to 1: of the surface, of its triangles, and of the cells all around.
   Real surface_asymmetry = 0, triangle_asymmetry = 0, cell_asymmetry = 0;
@@ -51,7 +58,8 @@ struct Configuration {
   Real tolerance = 0;  ///< within which points are taken to lie on a plane; in the subdomain's unit
   std::vector<SymmetryPlane> planes;
   std::vector<Index> curved_patches;  ///< symmetry patches with more than `most_planes` planes
-  bool is_section = false;            ///< the body reaches from one symmetry plane to a parallel one
+  std::vector<OpenSide> open_sides;
+  bool is_section = false;  ///< the body reaches from one symmetry plane to a parallel one
 
   Real far_field_distance = 0;  ///< from the body's box to the nearest point of the far field
   /// At subsonic speeds, the distance of the far field over what leaves the loads alone. At supersonic ones,

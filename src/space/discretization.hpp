@@ -8,6 +8,7 @@
 #include "euler/flux.hpp"
 #include "partition/subdomain.hpp"
 #include "space/settings.hpp"
+#include "space/symmetric3.hpp"
 
 namespace alphadot {
 
@@ -18,11 +19,6 @@ struct PointMoments {
   /// Makes the weights 1 + lambda . (c_j - x) of the cells give the point the value of any linear field
   /// (Holmes & Connell 1989).
   Vec3 lambda;
-};
-
-/// Symmetric 3 x 3 matrix (xx, xy, xz, yy, yz, zz).
-struct Symmetric3 {
-  Real xx, xy, xz, yy, yz, zz;
 };
 
 /// Mesh with boundary conditions and reconstruction geometry of one rank.

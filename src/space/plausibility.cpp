@@ -15,19 +15,29 @@ namespace {
 class Judge {
  public:
   Judge(const Configuration& configuration, std::span<const std::string> patch_names,
-        const FlightCondition& settings, Real scale, const std::string& file)
-      : facts_(configuration), names_(patch_names), settings_(settings), scale_(scale), file_(file) {}
+        std::span<const BoundaryKind> kinds, const FlightCondition& settings, Real scale,
+        const std::string& file)
+      : facts_(configuration),
+        names_(patch_names),
+        kinds_(kinds),
+        settings_(settings),
+        scale_(scale),
+        file_(file) {}
 
   Findings findings() {
     judge_regions();
     judge_symmetry();
+    judge_open_sides();
     if (facts_.has_body) {
       judge_size();
       judge_base();
       judge_far_field();
+      judge_motion();
     } else {
-      warn("no patch is a \"wall\": all loads are zero");
+      problem("no patch is a \"wall\": all loads are zero",
+              "name the surface of the body in [boundary] as \"wall\"");
     }
+    judge_jets();
     judge_cells();
     return std::move(out_);
   }
@@ -168,6 +178,72 @@ class Judge {
     }
   }
 
+  void judge_open_sides() {
+    if (facts_.is_section) return;
+    for (const auto& [patch, plane] : facts_.open_sides) {
+      const auto kind = kinds_[static_cast<std::size_t>(patch)];
+      const std::string what =
+          fmt::format("the body ends in the \"{}\" {} in {}, a side of the mesh along the stream",
+                      word_of(kind), quoted(patch), text(plane));
+      if (kind == BoundaryKind::jet)
+        problem(what + ": the loads of its other half are missing",
+                "name a plane of symmetry \"symmetry\" in [boundary] and set reference.model = \"half\"; a "
+                "wall of the "
+                "tunnel that the body stands on is a \"sting\"");
+      else
+        warn(what +
+             ": if it is a plane of symmetry, the loads of the other half are missing; name it \"symmetry\" "
+             "in [boundary] and set reference.model = \"half\"");
+    }
+  }
+
+  void judge_jets() {
+    for (std::size_t patch = 0; patch < facts_.fore_share.size(); ++patch)
+      if (const Real share = facts_.fore_share[patch]; share > plausible::fore_share)
+        warn(
+            fmt::format("{:.3g} % of the jet \"{}\" looks ahead, into the stream, which it swallows there: a "
+                        "jet is for a "
+                        "base; the surface of a body is a \"wall\"",
+                        100 * share, names_[patch]));
+  }
+
+  /// What no vehicle does, and no linear theory is about.
+  void judge_motion() {
+    const auto& motion = settings_.motion;
+    if (motion.kind == MotionKind::none) return;
+    const bool turns = motion.kind != MotionKind::plunge && motion.kind != MotionKind::sway &&
+                       motion.kind != MotionKind::step_alpha && motion.kind != MotionKind::ramp_alpha;
+    if (const Real lengths = body_lengths_away(motion.axis_point);
+        turns && lengths > plausible::farthest_center)
+      warn(fmt::format(
+          "motion.axis_point is {:.4g} body lengths away from the body: its turning is mostly a plunge",
+          lengths));
+    if (motion.kind == MotionKind::table) return;
+    if (motion.kind != MotionKind::step_q && motion.amplitude > plausible::largest_amplitude)
+      warn(
+          fmt::format("motion.amplitude = {:g} degrees: derivatives are about small angles, and beyond {:g} "
+                      "degrees loads are "
+                      "far from linear",
+                      motion.amplitude, plausible::largest_amplitude));
+    const bool is_harmonic = motion.kind != MotionKind::step_q && motion.kind != MotionKind::step_alpha &&
+                             motion.kind != MotionKind::ramp_alpha;
+    if (is_harmonic && motion.reduced_frequency * facts_.body_length > plausible::largest_frequency)
+      warn(fmt::format(
+          "motion.reduced_frequency = {:g}: in one period the stream passes {:.3g} of the body's length; the "
+          "derivatives are those of that frequency, far from the slow motion of a flight",
+          motion.reduced_frequency, pi / (motion.reduced_frequency * facts_.body_length)));
+  }
+
+  /// Of a point, from the box around the body.
+  Real body_lengths_away(const Vec3& point) const {
+    Vec3 away;
+    for (int d = 0; d < 3; ++d) {
+      const Real at = point[d] / settings_.reference.length;
+      away[d] = std::max({facts_.body.lower[d] - at, at - facts_.body.upper[d], 0.0});
+    }
+    return norm(away) / facts_.body_length;
+  }
+
   void judge_size() {
     const auto& reference = settings_.reference;
     const std::string remedy = fmt::format("; check mesh.scale = {:g} and the units of [reference]", scale_);
@@ -178,12 +254,7 @@ class Judge {
         largest * plausible::largest_area < 1 || largest * plausible::smallest_area > 1)
       warn(fmt::format("reference.area is {:.4g} times the body's largest projected area{}", 1 / largest,
                        remedy));
-    Vec3 away;
-    for (int d = 0; d < 3; ++d) {
-      const Real at = reference.moment_center[d] / reference.length;
-      away[d] = std::max({facts_.body.lower[d] - at, at - facts_.body.upper[d], 0.0});
-    }
-    if (const Real lengths = norm(away) / facts_.body_length; lengths > plausible::farthest_center)
+    if (const Real lengths = body_lengths_away(reference.moment_center); lengths > plausible::farthest_center)
       warn(fmt::format("reference.moment_center is {:.4g} body lengths away from the body{}", lengths,
                        remedy));
   }
@@ -230,6 +301,7 @@ class Judge {
 
   const Configuration& facts_;
   const std::span<const std::string> names_;
+  const std::span<const BoundaryKind> kinds_;
   const FlightCondition& settings_;
   Real scale_;
   const std::string& file_;
@@ -239,8 +311,9 @@ class Judge {
 }  // namespace
 
 Findings judge(const Configuration& configuration, std::span<const std::string> patch_names,
-               const FlightCondition& flight, Real scale, const std::string& file) {
-  return Judge(configuration, patch_names, flight, scale, file).findings();
+               std::span<const BoundaryKind> kinds, const FlightCondition& flight, Real scale,
+               const std::string& file) {
+  return Judge(configuration, patch_names, kinds, flight, scale, file).findings();
 }
 
 }  // namespace alphadot

@@ -27,6 +27,11 @@ inline constexpr Real farthest_center = 3;
 /// slip walls the flow expands into a vacuum; less than this is the edge of a fin.
 inline constexpr Real aft_share = 0.02;
 inline constexpr Real supersonic_mach = 1.2;
+/// Of a jet's area, what may look ahead: of a base that is not quite plane, little.
+inline constexpr Real fore_share = 0.1;
+/// Degrees of a motion; and reduced frequency times body length in reference lengths, from which on the
+/// stream passes less than a third of the body in a period.
+inline constexpr Real largest_amplitude = 15, largest_frequency = 10;
 /// Below this angle between faces, and above this aspect ratio and step in volume, gradients lose their
 /// accuracy; generators' own optimisers leave nothing like it.
 inline constexpr Real smallest_angle = 1;
@@ -39,9 +44,10 @@ struct Findings {
   std::vector<std::string> warnings;  ///< it may be meant so
 };
 
-/// Compares. `patch_names`: of the mesh; `scale`: its units in those of `flight`; `file`: of the case, for
-/// messages. Coordinates in the messages are those of the mesh file.
+/// Compares. `patch_names`, `kinds`: of the mesh's patches; `scale`: its units in those of `flight`; `file`:
+/// of the case, for messages. Coordinates in the messages are those of the mesh file.
 Findings judge(const Configuration& configuration, std::span<const std::string> patch_names,
-               const FlightCondition& flight, Real scale, const std::string& file);
+               std::span<const BoundaryKind> kinds, const FlightCondition& flight, Real scale,
+               const std::string& file);
 
 }  // namespace alphadot

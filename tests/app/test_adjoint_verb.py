@@ -131,6 +131,13 @@ class AdjointTest(unittest.TestCase):
             self.assertEqual(len(done.errors), 1, done.err)
             self.assertIn(part, done.errors[0])
 
+    def test_says_all_that_is_wrong(self) -> None:
+        done = run(self.folder, "adjoint", "case.toml", "--out", "wrong", "--of", "Cm,Cd,CN@nose")
+        self.assertEqual(done.codes, [1] * RANKS)
+        self.assertEqual(len(done.errors), 2, done.err)
+        for part in ('no load "Cd"', '"nose" is no wall'):
+            self.assertIn(part, done.err)
+
 
 if __name__ == "__main__":
     unittest.main()

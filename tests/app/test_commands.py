@@ -9,8 +9,10 @@ import math
 import tempfile
 import unittest
 from pathlib import Path
+from subprocess import PIPE
+from subprocess import run as call
 
-from program import CASE, RANKS, Outcome, box, gmsh_text, run, write_case
+from program import CASE, PROGRAM, RANKS, Outcome, box, gmsh_text, run, write_case
 
 PLUNGE = """
 [motion]
@@ -207,6 +209,16 @@ class Commands(unittest.TestCase):
 
     def test_keys(self) -> None:
         self.assertIn("reduced_frequency", self.succeeded("keys"))
+
+    def test_what_cannot_be_printed(self) -> None:
+        """Also of what fits into the buffer, so that its loss is seen at the end only."""
+        result = str(self.folder / "plunge/result.json")
+        for arguments in (["keys"], ["check", "case.toml"], ["derive", result], ["info", result]):
+            with self.subTest(verb=arguments[0]), open("/dev/full", "w") as full:
+                done = call([PROGRAM, *arguments], cwd=self.folder, stdout=full, stderr=PIPE, text=True)
+                self.assertEqual(done.returncode, 1)
+                self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
+                self.assertRegex(done.stderr, "error: standard output: .*No space left on device; ")
 
     def test_help_names_the_verbs(self) -> None:
         text = self.succeeded("--help")

@@ -141,12 +141,19 @@ class Configurations(unittest.TestCase):
         missing = CASE.replace("MESH", "cone.su2").replace('model = "half"\n', "")
         (self.folder / "missing.toml").write_text(missing)
         self.refused("missing", *says)
+        as_full = "reference.model=full"
+        self.refused("cone", 'the body ends in the "jet" "symmetry" in the plane y = 0', "the loads of its other half are missing",
+                     settings=(as_full, "boundary.symmetry=jet"))  # fmt: skip
+        for kind in ("sting", "farfield"):
+            seen = self.checked(as_full, f"boundary.symmetry={kind}")
+            self.assertIn(f'the body ends in the "{kind}" "symmetry" in the plane y = 0', seen)
+            self.assertIn("the loads of the other half are missing", seen)
 
     def test_plane_of_symmetry_elsewhere(self) -> None:
         self.refused("y_up", '"symmetry" in the plane z = 0', "turn the mesh about the x axis")
 
     def test_patch_called_symmetry_that_is_not_plane(self) -> None:
-        self.refused("cone", 'symmetry patch "body" is not plane', '"sting"', settings=("boundary.body=symmetry",))
+        self.refused("cone", 'symmetry patch "body" is not plane', '"sting"', 'no patch is a "wall"', settings=("boundary.body=symmetry",), errors=2)
 
     def test_wrong_units(self) -> None:
         self.warned("1000 reference lengths long", "mesh.scale = 1000", settings=("mesh.scale=1000",))

@@ -274,6 +274,13 @@ INSTANTIATE_TEST_SUITE_P(
         BadCase{"mach = 2\nbeta = 1\n[reference]\nmodel = \"half\"", 6, "a half model has no sideslip"},
         BadCase{"mach = 2\n[steady]\ncfl_start = 10\ncfl_max = 5", 8, "cfl_max is below"}));
 
+TEST(CaseFile, AStepThatLacksTwoThingsIsToldOfEachOnce) {
+  const auto problems = problems_of(minimal + "[motion]\nkind = \"step_alpha\"\n", {});
+  ASSERT_EQ(problems.size(), 2u);
+  EXPECT_NE(problems[0].what.find("needs unsteady.duration > 0"), std::string::npos);
+  EXPECT_NE(problems[1].what.find("unsteady.steps = 0 gives no derivatives"), std::string::npos);
+}
+
 TEST(CaseFile, AllProblemsComeAtOnceInTheOrderOfTheFile) {
   const auto problems =
       problems_of("[mesh]\nscale = 0\n[freestream]\nmach = -2\n[boundary]\n[space]\nfluxx = 1\n",

@@ -83,13 +83,13 @@ Look look(const Mesh& mesh, const Kinds& kinds, const Case& settings) {
   const auto domain = distribute(mesh, comm, settings.mesh.scale);
   Look out;
   out.facts = survey(domain, kinds, settings, comm);
-  out.findings = judge(out.facts, domain.patch_names, settings, settings.mesh.scale, settings.file);
+  out.findings = judge(out.facts, domain.patch_names, kinds, settings, settings.mesh.scale, settings.file);
   return out;
 }
 
 /// One problem, which says all of `parts`.
 void expect_problem(const Look& look, const std::vector<std::string>& parts) {
-  ASSERT_EQ(look.findings.problems.size(), 1u);
+  ASSERT_EQ(look.findings.problems.size(), 1u) << look.findings.problems.back().text();
   for (const auto& part : parts)
     EXPECT_NE(look.findings.problems[0].text().find(part), std::string::npos)
         << look.findings.problems[0].text();
@@ -97,8 +97,8 @@ void expect_problem(const Look& look, const std::vector<std::string>& parts) {
 
 /// One warning, which says all of `parts`, and no problem.
 void expect_warning(const Look& look, const std::vector<std::string>& parts) {
-  EXPECT_TRUE(look.findings.problems.empty());
-  ASSERT_EQ(look.findings.warnings.size(), 1u);
+  for (const auto& problem : look.findings.problems) ADD_FAILURE() << problem.text();
+  ASSERT_EQ(look.findings.warnings.size(), 1u) << look.findings.warnings.back();
   for (const auto& part : parts)
     EXPECT_NE(look.findings.warnings[0].find(part), std::string::npos) << look.findings.warnings[0];
 }
@@ -342,10 +342,64 @@ TEST(Plausibility, WarnsOfBadCells) {
   EXPECT_TRUE(says("has a neighbour 2e+03 times as large"));  // 0.9995 / 0.0005 = 1999
 }
 
-TEST(Plausibility, WarnsOfACaseWithoutWalls) {
+TEST(Plausibility, RefusesACaseWithoutWalls) {
   Kinds kinds = whole_kinds;
   kinds[6] = far_field;
-  expect_warning(look(whole_cube(), kinds, case_of(false)), {"no patch is a \"wall\""});
+  expect_problem(look(whole_cube(), kinds, case_of(false)), {"no patch is a \"wall\"", "all loads are zero"});
+}
+
+TEST(Plausibility, LooksAtSidesThatMayBePlanesOfSymmetry) {
+  const auto seen = [&](BoundaryKind kind, const Mesh& mesh = half_cube(), std::size_t side = 2) {
+    Kinds kinds(7, far_field);
+    kinds[6] = wall;
+    kinds[side] = kind;
+    return look(mesh, kinds, case_of(false, 1.1));
+  };
+  const auto warns = [](const Look& look) {
+    return std::ranges::any_of(look.findings.warnings, [](const std::string& text) {
+      return text.find("\"y_min\" in the plane y = 0, a side of the mesh") != std::string::npos;
+    });
+  };
+  expect_problem(seen(BoundaryKind::jet),
+                 {"\"y_min\" in the plane y = 0", "other half are missing", "\"symmetry\""});
+  for (const auto kind : {BoundaryKind::sting, wall, far_field}) {
+    EXPECT_TRUE(warns(seen(kind)));
+    EXPECT_TRUE(seen(kind).findings.problems.empty());
+  }
+  auto upright = half_cube();
+  transform(upright, turned);
+  expect_problem(seen(BoundaryKind::jet, upright), {"\"y_min\" in the plane z = 0"});
+  EXPECT_FALSE(warns(seen(wall, whole_cube())));  // no body ends in this wall of a tunnel
+  EXPECT_TRUE(seen(BoundaryKind::jet, whole_cube(), 1).findings.problems.empty());
+}
+
+TEST(Plausibility, WarnsOfAJetThatLooksAhead) {
+  Kinds kinds = whole_kinds;
+  kinds[0] = wall;
+  kinds[6] = BoundaryKind::jet;  // of a cube, one face of six looks ahead
+  EXPECT_NE(look(whole_cube(), kinds, case_of(false, 0.3))
+                .findings.warnings.back()
+                .find("16.7 % of the jet \"body\" looks ahead"),
+            std::string::npos);
+}
+
+TEST(Plausibility, WarnsOfMotionsThatNoVehicleDoes) {
+  const auto with = [](MotionKind kind, Real amplitude, Real frequency, const Vec3& axis) {
+    auto settings = case_of(false, 1.15);
+    settings.motion.kind = kind;
+    settings.motion.amplitude = amplitude;
+    settings.motion.reduced_frequency = frequency;
+    settings.motion.axis_point = axis;
+    return look(whole_cube(), whole_kinds, settings);
+  };
+  expect_warning(with(MotionKind::pitch, 1, 0.01, {1e5, 0, 0}),
+                 {"motion.axis_point is 1e+05 body lengths away"});
+  expect_warning(with(MotionKind::plunge, 180, 0.01, {}), {"motion.amplitude = 180 degrees"});
+  // In a period of 2 pi / omega the stream passes pi / k lengths.
+  expect_warning(with(MotionKind::plunge, 1, 100, {}),
+                 {"in one period the stream passes 0.0314 of the body's length"});
+  EXPECT_TRUE(with(MotionKind::plunge, 1, 0.01, {1e5, 0, 0}).findings.warnings.empty());
+  EXPECT_TRUE(with(MotionKind::step_q, 20, 100, {1.5, 0, 0}).findings.warnings.empty());
 }
 
 }  // namespace
