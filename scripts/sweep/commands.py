@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import shutil
 import sys
 from argparse import Namespace
@@ -75,6 +76,7 @@ def table(sweep: Sweep, arguments: Namespace) -> int:
         from sweep.tables_out import FOLDER, write_all
     except ImportError as error:
         raise SweepError(f"{error}; run scripts/install.sh, and sweep.py with /usr/bin/python3") from None
+    gc.disable()  # the results of thousands of runs are millions of objects, none of them in a cycle
     lines = write_all(sweep, arguments.series, set(arguments.formats))
     print("\n".join([f"{sweep.folder / FOLDER}:", *lines]))
     return 0

@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
-from dataclasses import dataclass, field, replace
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 from sweep.plan import Run, Sweep
-from sweep.state import RESULT, Phase, State, read_json
-from sweep.status import states
+from sweep.state import RESULT, Phase, State, read_json, read_state
 
 COEFFICIENTS = ("CA", "CY", "CN", "Cl", "Cm", "Cn")
 VARIABLES = ("alpha", "beta", "p", "q", "r", "alphadot", "betadot", "alphaddot", "betaddot", "q_plus_alphadot", "r_minus_betadot")
 NAMES = tuple(f"{coefficient}_{variable}" for variable in VARIABLES for coefficient in COEFFICIENTS)
+KNOWN = frozenset(NAMES)
 SIDE = ("CY_beta", "Cn_beta", "Cl_beta", "Cn_r", "Cn_betadot", "Cl_p", "Cn_p", "Cl_r")  # of the motion out of the plane of symmetry
 # What changes its sign in the mirror image about y = 0 and about z = 0; a derivative where one of its two halves does.
 ODD = {
@@ -21,20 +22,18 @@ ODD = {
 }
 
 
-@dataclass(frozen=True)
-class Estimate:
+class Estimate(NamedTuple):
     """A derivative, per radian, rates times length / 2V; its uncertainty is a half width, NaN where it is not known."""
 
     value: float
     uncertainty: float = math.nan
     converged: bool = True
-    parts: dict[str, float] = field(default_factory=dict)  # of the uncertainty, by source
+    parts: Mapping[str, float | None] = {}  # of the uncertainty, by source
 
     @staticmethod
     def of(entry: dict) -> Estimate:
-        known = lambda number: math.nan if number is None else float(number)
-        parts = {name: known(part) for name, part in entry.get("parts", {}).items()}
-        return Estimate(known(entry["value"]), known(entry["uncertainty"]), entry.get("converged", True), parts)
+        error = entry["uncertainty"]
+        return Estimate(entry["value"], math.nan if error is None else error, entry.get("converged", True), entry.get("parts", {}))
 
 
 @dataclass(frozen=True)
@@ -74,14 +73,15 @@ class Point:
 
 def read_points(sweep: Sweep) -> list[Point]:
     """A point a run, in their order, and then the mirror images that the symmetry of the sweep tells."""
-    points = [point_of(run, state) for run, state in states(sweep)]
+    points = list(map(point_of, sweep.runs))
     return points + list(images(points, sweep.symmetry))
 
 
-def point_of(run: Run, state: State) -> Point:
+def point_of(run: Run) -> Point:
+    result = read_json(f"{run.folder}/{RESULT}")
+    state = read_state(run, result)
     if state.phase not in (Phase.DONE, Phase.SHORT):
         return Point(run, state, run.alpha, run.beta, "", {}, {}, {}, {})
-    result = read_json(run.folder / RESULT)
     forces = result.get("forces", {})
     return Point(
         run,
@@ -90,7 +90,7 @@ def point_of(run: Run, state: State) -> Point:
         run.beta,
         "",
         {name: forces[name] for name in COEFFICIENTS if forces.get(name) is not None},
-        {name: Estimate.of(entry) for name, entry in result.get("derivatives", {}).items() if name in NAMES and entry["value"] is not None},
+        {name: Estimate.of(entry) for name, entry in result.get("derivatives", {}).items() if name in KNOWN and entry["value"] is not None},
         forces.get("components", {}),
         result,
     )
@@ -119,6 +119,6 @@ def mirrored(point: Point, kind: str, alpha: float, beta: float) -> Point:
 
     coefficients = {name: sign(name) * value + 0.0 for name, value in point.coefficients.items()}
     derivatives = {
-        name: replace(entry, value=sign(*name.split("_", 1)) * entry.value + 0.0) for name, entry in point.derivatives.items()
+        name: entry._replace(value=sign(*name.split("_", 1)) * entry.value + 0.0) for name, entry in point.derivatives.items()
     }
     return replace(point, alpha=alpha, beta=beta, image=kind, coefficients=coefficients, derivatives=derivatives, components={})

@@ -26,10 +26,10 @@ def text(grid: Grid, title: str) -> str:
             head = f"MACH NO = {mach:.4g}   SIDESLIP = {beta:.4g} DEG"
             lines += ["", "", f"{head}   STATIC COEFFICIENTS", ""]
             lines += block(grid, mach, beta, ("CN", "Cm", "CA", "CY", "Cn", "Cl"), extra=True)
-            names = [name for name in ("CN_alpha", "Cm_alpha", "CY_beta", "Cn_beta", "Cl_beta") if name in grid.derivatives()]
+            names = [name for name in ("CN_alpha", "Cm_alpha", "CY_beta", "Cn_beta", "Cl_beta") if name in grid.derivatives]
             lines += ["", f"{head}   STATIC DERIVATIVES (PER RADIAN)", ""]
             lines += block(grid, mach, beta, names)
-            names = [name for name in DAMPING if name in grid.derivatives()]
+            names = [name for name in DAMPING if name in grid.derivatives]
             if names:
                 lines += ["", f"{head}   DYNAMIC DERIVATIVES (PER RADIAN OF RATE x LENGTH / 2V)", ""]
                 lines += block(grid, mach, beta, names)

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections import Counter
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 
 import numpy as np
 
-from sweep.database import NAMES, Estimate, Point
+from sweep.database import COEFFICIENTS, NAMES, Estimate, Point
 from sweep.errors import SweepError
 
 PITCH_TO_YAW = {  # of a configuration that looks the same from all sides: (yaw, pitch, sign), about its axis
@@ -41,22 +43,23 @@ class Grid:
 
     def values(self, name: str) -> np.ndarray | None:
         """(Mach, alpha, beta) of a coefficient or a derivative; None unless every point has it."""
-        out = np.empty(self.shape)
-        for i, mach in enumerate(self.mach):
-            for j, alpha in enumerate(self.alpha):
-                for k, beta in enumerate(self.beta):
-                    point = self.at(mach, alpha, beta)
-                    if name in point.coefficients:
-                        out[i, j, k] = point.coefficients[name]
-                    elif name in point.derivatives:
-                        out[i, j, k] = point.derivatives[name].value
-                    else:
-                        return None
-        return out
+        points = [self.points[key] for key in itertools.product(self.mach, self.alpha, self.beta)]
+        try:
+            if name in COEFFICIENTS:
+                values = [point.coefficients[name] for point in points]
+            else:
+                values = [point.derivatives[name].value for point in points]
+        except KeyError:
+            return None
+        return np.array(values).reshape(self.shape)
 
+    @cached_property
     def derivatives(self) -> list[str]:
         """Names of those that every point has."""
-        shared = set.intersection(*(set(point.derivatives) for point in self.points.values()))
+        points = iter(self.points.values())
+        shared = set(next(points).derivatives)
+        for point in points:
+            shared &= point.derivatives.keys()
         return [name for name in NAMES if name in shared]
 
     def nearest_zero(self) -> "Grid":

@@ -53,7 +53,7 @@ def terms(grid: Grid, controls: Sequence[Control], coefficient: str):
     static = grid.values(coefficient)
     if static is not None:
         yield coefficient, [], axes, static.transpose(order)
-    for name in grid.derivatives():
+    for name in grid.derivatives:
         own, variable = name.split("_", 1)
         if own != coefficient:
             continue

@@ -35,7 +35,7 @@ def holder(path: Path) -> str:
         return "another process"
 
 
-def is_locked(path: Path) -> bool:
+def is_locked(path: Path | str) -> bool:
     """Does any process hold the lock? Asks with a shared lock, which other askers do not mind."""
     try:
         descriptor = os.open(path, os.O_RDONLY)

@@ -26,8 +26,9 @@ def write(path: Path, grid: Grid, controls: Sequence[Control], title: str) -> No
         "length": reference["length"], "area": reference["area"], "moment_center": np.array(reference["moment_center"], dtype=float),
         "units": "angles deg; derivatives per rad, rates times length/2V; arrays (mach, alpha, beta)",
     }  # fmt: skip
-    aero |= {name: grid.values(name) for name in COEFFICIENTS if grid.values(name) is not None}
-    for name in grid.derivatives():
+    known = {name: grid.values(name) for name in COEFFICIENTS}
+    aero |= {name: values for name, values in known.items() if values is not None}
+    for name in grid.derivatives:
         aero[name] = grid.values(name)
         aero[f"{name}_pm"] = np.array([
             [[grid.at(m, a, b).derivatives[name].uncertainty for b in grid.beta] for a in grid.alpha] for m in grid.mach

@@ -136,7 +136,7 @@ def linear_set(grid: Grid) -> dict[str, np.ndarray] | str:
     axial, side, normal = (zero.values(name).ravel() for name in ("CA", "CY", "CN"))
     out = {"cL_0": normal, "cQ_0": side, "cD_0": axial} | {f"{own}_0": zero.values(name).ravel() for own, name in MOMENTS.items()}
     own = {"cL": "CN", "cQ": "CY", "cD": "CA", **MOMENTS}
-    known = zero.derivatives()
+    known = zero.derivatives
     for variable in ("alpha", "beta", "p", "q", "r"):
         for name, ours in own.items():
             if f"{ours}_{variable}" in known:

@@ -39,7 +39,7 @@ class State:
     seconds: float | None = None  # of wall clock, when it came to its end
 
 
-def read_json(path: Path) -> dict:
+def read_json(path: Path | str) -> dict:
     """Content of a file, or {} where there is none that can be read."""
     try:
         with open(path, "rb", buffering=0) as file:
@@ -54,7 +54,7 @@ WORD, TEXT, NUMBER = (re.compile(rb'"%s":\s*%s' % pair) for pair in (
 ))  # fmt: skip
 
 
-def ending(path: Path) -> dict:
+def ending(path: Path | str) -> dict:
     """How a result.json says that its run ended, as in the whole of it: status, message and performance.wall_s. A hundredth of the
     work of parsing it, for there may be thousands; {} where there is none that can be read."""
     try:
@@ -133,18 +133,20 @@ def checkpoints(run: Run) -> list[Path]:
     return sorted(run.folder.glob("checkpoint_*.vtkhdf"))
 
 
-def read_state(run: Run) -> State:
-    if is_locked(run.folder / LOCK):
+def read_state(run: Run, result: dict | None = None) -> State:
+    """As the files in its folder have it; `result`: what is in its result.json, where that has been read."""
+    if is_locked(f"{run.folder}/{LOCK}"):
         return State(Phase.RUNNING, progress(run.folder))
-    return state_at_rest(run)
+    return state_at_rest(run, result)
 
 
-def state_at_rest(run: Run) -> State:
+def state_at_rest(run: Run, result: dict | None = None) -> State:
     """The state of a run that nobody works on."""
-    record = read_json(run.folder / RECORD)
+    record = read_json(f"{run.folder}/{RECORD}")  # thousands of paths: as text they cost less
     if not record:
         return State(Phase.WAITING)
-    end, result = read_json(run.folder / END), ending(run.folder / RESULT)
+    end = read_json(f"{run.folder}/{END}")
+    result = ending(f"{run.folder}/{RESULT}") if result is None else result
     if record.get("identity") != run.identity():
         if is_extension(record, run):
             return State(Phase.INTERRUPTED, f"to go on to {run.settings['unsteady.cycles']:g} cycles")

@@ -46,32 +46,37 @@ def columns_of(points: list[Point]) -> Columns:
         out[name] = [point.coefficients.get(name) for point in points]
     out["x_cp"] = [x_cp(point) for point in points]
     out["static_margin"] = [number(point.static_margin) for point in points]
-    for name in (name for name in NAMES if any(name in point.derivatives for point in points)):
-        found = [point.derivatives.get(name) for point in points]
+    known = [point.derivatives for point in points]
+    present = set().union(*known)
+    for name in (name for name in NAMES if name in present):
+        found = [derivatives.get(name) for derivatives in known]
         out[name] = [entry and entry.value for entry in found]
         out[f"{name}.uncertainty"] = [entry and number(entry.uncertainty) for entry in found]
         out[f"{name}.converged"] = [entry and entry.converged for entry in found]
         for part in dict.fromkeys(part for entry in found if entry for part in entry.parts):
-            out[f"{name}.{part}"] = [entry and number(entry.parts.get(part, math.nan)) for entry in found]
-    for patch in dict.fromkeys(patch for point in points for patch in point.components):
+            out[f"{name}.{part}"] = [entry and entry.parts.get(part) for entry in found]
+    components = [point.components for point in points]
+    for patch in dict.fromkeys(patch for own in components for patch in own):
+        loads = [own.get(patch, NOTHING) for own in components]
         for name in COEFFICIENTS:
-            out[f"{name}@{patch}"] = [point.components.get(patch, {}).get(name) for point in points]
+            out[f"{name}@{patch}"] = [own.get(name) for own in loads]
     return out | provenance(points)
 
 
+NOTHING: dict = {}
+
+
 def provenance(points: list[Point]) -> Columns:
-    part = lambda point, *keys: {} if not point.result else point.result.get(keys[0]) or {}
-    out: Columns = {}
-    for name, table, key in (("length", "reference", "length"), ("area", "reference", "area"), ("model", "reference", "model")):
-        out[name] = [part(point, table).get(key) for point in points]
-    for index, name in enumerate(("x_ref", "y_ref", "z_ref")):
-        out[name] = [(part(point, "reference").get("moment_center") or [None] * 3)[index] for point in points]
+    part = lambda table: [point.result.get(table) or NOTHING for point in points]
+    reference, mesh, source, cost = map(part, ("reference", "mesh", "provenance", "performance"))
+    out: Columns = {name: [own.get(name) for own in reference] for name in ("length", "area", "model")}
+    centers = [own.get("moment_center") or [None] * 3 for own in reference]
+    out |= dict(zip(("x_ref", "y_ref", "z_ref"), map(list, zip(*centers))))
     out["uncertainty_of"] = [point.result.get("uncertainty") for point in points]
-    out["cells"] = [part(point, "mesh").get("cells") for point in points]
-    out["mesh_hash"] = [part(point, "mesh").get("hash") for point in points]
-    for name in ("version", "commit", "date"):
-        out[name] = [part(point, "provenance").get(name) for point in points]
-    out["cpu_s"] = [part(point, "performance").get("cpu_s") for point in points]
+    out["cells"] = [own.get("cells") for own in mesh]
+    out["mesh_hash"] = [own.get("hash") for own in mesh]
+    out |= {name: [own.get(name) for own in source] for name in ("version", "commit", "date")}
+    out["cpu_s"] = [own.get("cpu_s") for own in cost]
     out["message"] = [point.state.detail for point in points]
     return out
 
@@ -121,9 +126,10 @@ def place(name: str) -> str:
 
 
 def array(values: list) -> np.ndarray:
-    if any(isinstance(value, str) for value in values):
+    kind = next((type(value) for value in values if value is not None), float)
+    if kind is str:
         return np.array([value or "" for value in values], dtype=h5py.string_dtype())
-    if any(isinstance(value, bool) for value in values):
+    if kind is bool:
         return np.array([-1 if value is None else int(value) for value in values], dtype=np.int8)
     return np.array(values, dtype=float)
 
