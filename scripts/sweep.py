@@ -76,7 +76,7 @@ def parse() -> argparse.Namespace:
 
     run = add("run", "run what is not done, and report")
     run.add_argument("--program", metavar="FILE", help="the program (default: $ALPHADOT, build/alphadot, or on the PATH)")
-    run.add_argument("--only", metavar="RUN", help="this run alone, and no report")
+    run.add_argument("--only", nargs="+", metavar="RUN", help="these runs alone, and no report")
     run.add_argument("--no-report", action="store_true")
     add("status", "show how far every run is")
     write = add("report", "write report.html")
@@ -105,6 +105,7 @@ def parse() -> argparse.Namespace:
     slurm.add_argument(
         "--margin", type=int, default=60, metavar="S", help="seconds before that for a checkpoint (default: %(default)s)"
     )
+    slurm.add_argument("--each", type=int, metavar="N", help="runs a task, one after the other (default: as few as make 1000 tasks)")
     slurm.add_argument("--partition", help="where to run (default: the cluster's)")
     slurm.add_argument("--submit", action="store_true", help="submit them as well")
     return parser.parse_args()

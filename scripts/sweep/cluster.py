@@ -1,7 +1,8 @@
-"""Slurm: an array job with one task a run, each checkpointed before its wall-clock limit and queued again until it is done."""
+"""Slurm: an array job, each task some runs, checkpointed before its wall-clock limit and queued again until they are done."""
 
 from __future__ import annotations
 
+import math
 import shlex
 import subprocess
 import sys
@@ -13,11 +14,12 @@ from sweep.plan import Run, Sweep, SweepError
 
 FOLDER = "slurm"
 SCRIPT = Path(__file__).resolve().parents[1] / "sweep.py"
+MOST_TASKS = 1000  # of an array: Slurm's default limit
 RESTARTS = 100  # a job that gets nowhere is not queued for ever
 
 ARRAY = """\
 #!/bin/bash
-# Written by sweep.py slurm: the runs of {title}, one a task.
+# Written by sweep.py slurm: the runs of {title}, {each} a task.
 #SBATCH --job-name={name}
 #SBATCH --array=0-{last}
 #SBATCH --nodes=1-{ranks}
@@ -29,11 +31,11 @@ ARRAY = """\
 #SBATCH --output={log}
 {more}
 runs=({runs})
-run=${{runs[$SLURM_ARRAY_TASK_ID]}}
-echo "$(date +'%F %T') $run on $SLURMD_NODENAME, started ${{SLURM_RESTART_COUNT:-0}} times before"
+own=("${{runs[@]:SLURM_ARRAY_TASK_ID * {each}:{each}}}")
+echo "$(date +'%F %T') ${{own[*]}} on $SLURMD_NODENAME, started ${{SLURM_RESTART_COUNT:-0}} times before"
 
 # sweep.py passes the signal on to the program, which writes a checkpoint and ends.
-{python} {script} run {sweep} --only "$run" --program {program} &
+{python} {script} run {sweep} --only "${{own[@]}}" --program {program} &
 child=$!
 trap 'echo "$(date +%F\\ %T) the wall-clock limit is near: checkpoint and end"; kill -USR2 $child' USR2
 wait $child
@@ -42,7 +44,7 @@ while kill -0 $child 2>/dev/null; do  # a signal ends a wait early
   wait $child
   code=$?
 done
-echo "$(date +'%F %T') $run ended with code $code"
+echo "$(date +'%F %T') ended with code $code"
 
 # 3: interrupted, with work left.
 if ((code == 3 && ${{SLURM_RESTART_COUNT:-0}} < {restarts})); then
@@ -81,9 +83,11 @@ def write_scripts(sweep: Sweep, runs: Sequence[Run], program: Path, arguments: N
         "sweep": shlex.quote(str(sweep.file)),
         "more": f"#SBATCH --partition={arguments.partition}\n" if arguments.partition else "",
     }
+    each = arguments.each or math.ceil(len(runs) / MOST_TASKS)
     array = ARRAY.format(
         **common,
-        last=len(runs) - 1,
+        each=each,
+        last=math.ceil(len(runs) / each) - 1,
         ranks=ranks.pop(),
         time=arguments.time,
         margin=arguments.margin,

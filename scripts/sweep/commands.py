@@ -12,7 +12,7 @@ from math import prod
 from sweep import cluster
 from sweep.lock import Locked, locked
 from sweep.meshes import make_mesh
-from sweep.plan import EXTENSIONS, Sweep, SweepError, read_sweep, read_toml
+from sweep.plan import EXTENSIONS, Run, Sweep, SweepError, read_sweep, read_toml
 from sweep.runner import Runner, find_program
 from sweep.state import END, RESULT, Phase, checkpoints, read_state
 from sweep.status import states, status_text
@@ -30,13 +30,8 @@ def exclusive(sweep: Sweep) -> AbstractContextManager[int]:
 def run(sweep: Sweep, arguments: Namespace) -> int:
     runner = Runner(find_program(arguments.program))
     runner.listen()
-    if arguments.only:  # one job of many: the run's own lock is enough
-        wanted = sweep.find(arguments.only)
-        state = runner.run(wanted, wanted.name)
-        if state.phase is Phase.INTERRUPTED and not checkpoints(wanted):
-            print(f"{wanted.name}: has no checkpoint to go on from; give it more time")
-            return 1  # or a job that is too short would be queued again and again
-        return exit_code([(wanted, state)])
+    if arguments.only:  # one job of many: the runs' own locks are enough
+        return run_some(runner, [sweep.find(name) for name in arguments.only])
     try:
         with exclusive(sweep):
             runner.run_all(sweep.runs)
@@ -47,6 +42,20 @@ def run(sweep: Sweep, arguments: Namespace) -> int:
     if not arguments.no_report and any(state.phase in ENDED for _, state in found):
         report(sweep, arguments)
     return exit_code(found)
+
+
+def run_some(runner: Runner, runs: list[Run]) -> int:
+    """One after the other, until the program is told to stop. 1 when that has left nothing to go on from: or a job that is too short
+    would be queued again and again."""
+    before = [read_state(run).phase in ENDED for run in runs]
+    runner.run_all(runs)
+    found = [(run, read_state(run)) for run in runs]
+    stopped = [run for run, state in found if state.phase is Phase.INTERRUPTED]
+    if stopped and not any(map(checkpoints, stopped)) and [state.phase in ENDED for _, state in found] == before:
+        print(f"{stopped[0].name}: has no checkpoint to go on from; give it more time")
+        return 1
+    left = {state.phase for _, state in found} - ENDED - {Phase.FAILED}
+    return 3 if left else exit_code(found)
 
 
 def exit_code(found: list) -> int:

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import os
+import shutil
+from pathlib import Path
 from statistics import median
 
 from sweep.plan import Run, Sweep
 from sweep.state import Phase, State, read_state, seconds_spent
-from sweep.text import aligned, duration
+from sweep.text import aligned, duration, size
 
 
 def states(sweep: Sweep) -> list[tuple[Run, State]]:
@@ -29,6 +32,24 @@ def time_left(found: list[tuple[Run, State]]) -> float | None:
     return left
 
 
+def folder_size(folder: Path) -> int:
+    with os.scandir(folder) as entries:
+        return sum(entry.stat().st_size for entry in entries if entry.is_file())
+
+
+def disk_text(found: list[tuple[Run, State]]) -> str:
+    """What the runs take on the disk, by some of those that are done; "" while there are none."""
+    done = [run.folder for run, state in found if state.phase is Phase.DONE]
+    some = done[:: max(1, len(done) // 20)]
+    if not some:
+        return ""
+    each = sum(map(folder_size, some)) / len(some)
+    free = shutil.disk_usage(some[0]).free
+    need = each * (len(found) - len(done))
+    text = f"disk: {size(each)} a run, {size(each * len(found))} for all, {size(free)} free"
+    return text + (": NOT ENOUGH for what is left" if need > free else "")
+
+
 def status_text(sweep: Sweep) -> str:
     found = states(sweep)
     rows = [("run", "state", "time", "")]
@@ -39,4 +60,6 @@ def status_text(sweep: Sweep) -> str:
     left = time_left(found)
     if left:
         summary += f"; about {duration(left)} left"
+    disk = disk_text(found)
+    summary += f"\n{disk}" if disk else ""
     return f"{sweep.title}: {len(found)} runs in {sweep.folder}\n\n{aligned(rows)}\n\n{summary}\n"

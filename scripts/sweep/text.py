@@ -17,6 +17,15 @@ def duration(seconds: float) -> str:
     return f"{whole} s"
 
 
+def size(bytes_: float) -> str:
+    """ "12 kB", "3.4 MB", "120 GB"."""
+    for unit in ("B", "kB", "MB"):
+        if bytes_ < 999.5:
+            return f"{bytes_:.3g} {unit}"
+        bytes_ /= 1000.0
+    return f"{bytes_:,.3g} GB" if bytes_ < 999.5 else f"{bytes_:,.0f} GB"
+
+
 def aligned(rows: Sequence[Sequence[str]]) -> str:
     """Rows of text with their columns aligned to the left."""
     widths = [max(map(len, column)) for column in zip(*rows)]

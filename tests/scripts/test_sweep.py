@@ -6,10 +6,11 @@ from __future__ import annotations
 import os
 import re
 import signal
+import subprocess
 import time
 import unittest
 
-from workspace import Workspace
+from workspace import STUB, Workspace
 
 GOOD, BAD, SLOW, SHORT = "derivatives_m2_a1.5", "bad_m3_a1.5", "plunge_m2_a1.5", "short_m3_a1.5"
 MIXED = '[[runs]]\nlabel = "bad"\ncase = "bad.toml"\nmach = 3\n\n[[runs]]\nmach = 2\n'
@@ -177,6 +178,49 @@ class Sweeps(Workspace):
         for line in ("--array=0-1", "--ntasks=2", "--time=00:20:00", "--signal=B:USR2@90", "--requeue"):
             self.assertIn(f"#SBATCH {line}\n", array)
         self.assertIn(f"runs=({BAD} {GOOD})", array)
+
+    def test_packed_array(self) -> None:
+        """Three tasks for five runs; the last has one, and each task runs its own."""
+        self.write("[[runs]]\nmach = {from = 1, to = 3, step = 0.5}\n")
+        self.sweep("slurm", "--each", 2)
+        script = self.folder / "runs" / "slurm" / "array.sbatch"
+        self.assertIn("#SBATCH --array=0-2\n", script.read_text())
+        for task, wanted in ((2, [0, 0, 0, 0, 1]), (0, [1, 1, 0, 0, 1])):
+            environment = os.environ | {"MPIEXEC": str(STUB), "SLURM_ARRAY_TASK_ID": str(task)}
+            done = subprocess.run(["bash", script], env=environment, capture_output=True, text=True, timeout=60)
+            self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+            names = [f"derivatives_m{mach:g}_a1.5" for mach in (1, 1.5, 2, 2.5, 3)]
+            self.assertEqual([len(self.calls(name)) for name in names], wanted)
+
+    def test_a_stopped_task_has_work_left(self) -> None:
+        """Also where one of its runs has failed: Slurm queues it again for the code."""
+        self.write('[[runs]]\nlabel = "bad"\ncase = "bad.toml"\nmach = 3\n\n' + MOTION)
+        process = self.start("run", "--only", BAD, SLOW)
+        self.wait_for((self.folder / "runs" / SLOW / "started").exists)
+        process.send_signal(signal.SIGUSR2)
+        process.communicate(timeout=20)
+        self.assertEqual(process.returncode, 3)
+        self.sweep("run", "--only", BAD, SLOW, code=1)
+        self.assertEqual(self.phase(SLOW), "done")
+
+    def test_what_stays_on_the_disk(self) -> None:
+        """No volumes unless asked for, no checkpoints of finished linear solves, and a word on how much there will be."""
+        self.write('[[runs]]\nmach = [2, 3]\n\n[[runs]]\nmethod = "plunge"\nmach = 2\n\n[[runs]]\nlabel = "v"\nmach = 2\nset."output.flow" = true\n')
+        checkpoint = lambda name: self.folder / "runs" / name / "checkpoint_000001.vtkhdf"
+        for name in (GOOD, SLOW):
+            checkpoint(name).parent.mkdir(parents=True)
+        self.sweep("run", "--no-report", "--only", GOOD)
+        for name in (GOOD, SLOW):
+            (self.folder / "runs" / name / "end.json").unlink(missing_ok=True)
+            (self.folder / "runs" / name / "result.json").unlink(missing_ok=True)
+            checkpoint(name).touch()
+        self.sweep("run", "--no-report")
+        self.assertEqual(self.calls(GOOD), ["start", "restart"])
+        self.assertFalse(checkpoint(GOOD).exists())
+        log = lambda name: (self.folder / "runs" / name / "log.txt").read_text()
+        self.assertIn("--set output.flow=false", log(GOOD))
+        self.assertNotIn("output.flow=false", log("v_m2_a1.5"))
+        self.assertRegex(self.sweep("status"), r"disk: [\d.]+ kB a run, [\d.]+ kB for all, [\d.,]+ GB free\n")
 
     def test_missing_program_is_named(self) -> None:
         self.write(MIXED)
