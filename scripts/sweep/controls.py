@@ -49,3 +49,20 @@ def control_of(name: str, grids: dict[float, Grid], rest: Grid) -> Control | Non
             [[value(grids[d], m, a) - value(rest, m, a) if d else 0.0 for a in alpha] for m in mach] for d in degrees
         ])  # fmt: skip
     return Control(name, degrees, mach, alpha, changes)
+
+
+def trim_angles(control: Control, rest: Grid) -> list[tuple[float, float, float, float]]:
+    """Degrees, Mach number, and where between the angles computed Cm is zero: alpha, and CN there; linear between them."""
+    beta = min(rest.beta, key=abs)
+    out = []
+    for i, degrees in enumerate(control.degrees):
+        for j, mach in enumerate(control.mach):
+            total = lambda name: [rest.at(mach, a, beta).coefficients[name] + d for a, d in zip(control.alpha, control.changes[name][i, j])]
+            moment, normal = total("Cm"), total("CN")
+            for k in range(len(control.alpha) - 1):
+                low, high = moment[k], moment[k + 1]
+                if low * high < 0.0 or (low == 0.0 and high != 0.0):
+                    share = low / (low - high)
+                    alpha = control.alpha[k] + share * (control.alpha[k + 1] - control.alpha[k])
+                    out.append((degrees, mach, alpha, normal[k] + share * (normal[k + 1] - normal[k])))
+    return out

@@ -9,8 +9,11 @@ from html import escape
 from pathlib import Path
 
 import matplotlib.pyplot as plt
+import numpy as np
 
 from sweep import curves, dynamics, figures, page, surface, tables
+from sweep.controls import read_controls, trim_angles
+from sweep.grid import choose_series, make_grid
 from sweep.plan import Sweep, SweepError
 from sweep.results import Results, finite, relative
 from sweep.state import Phase
@@ -33,6 +36,7 @@ def write_report(sweep: Sweep, program: Path) -> Path:
             ("Beside the paper", beside_the_paper(results, folder)),
             ("Against angle of attack", against_alpha(results, folder)),
             ("Against Mach number", against_mach(results, folder)),
+            ("Controls", deflected(results, folder)),
             ("Motion", moving),
             ("Loops", loops(results, folder)),
             ("Derivatives", derivatives(results, folder)),
@@ -152,6 +156,32 @@ def over_mach(results: Results, folder: Path) -> str:
     some = f" Lines are shown for {len(curves.few(family.values))} of {len(family.values)} values." if len(family.values) > 8 else ""
     note = f'<p class="note">{escape(BARS + results.uncertainty)}. Moments about the centre of the run.{some}</p>'
     return page.legend(family.legend()) + pitch + (f"<h3>The side</h3>{side}" if side else "") + note
+
+
+def deflected(results: Results, folder: Path) -> str:
+    """What controls change, and where they hold the body."""
+    if not any(point.is_deflected for point in results.points):
+        return ""
+    try:
+        grid = make_grid(results.points, choose_series(results.points, None))
+    except SweepError as error:
+        return f'<p class="note">{escape(str(error))}</p>'
+    found, left_out = read_controls(results.points, grid)
+    names = ("CA", "CN", "Cm", "CY", "Cn", "Cl")
+    rows: list[list] = []
+    trim: list[list] = []
+    for control in found:
+        for i, j, k in np.ndindex(len(control.degrees), len(control.mach), len(control.alpha)):
+            if control.degrees[i]:
+                changes = [float(control.changes[name][i, j, k]) for name in names]
+                rows.append([control.name, control.degrees[i], control.mach[j], control.alpha[k], *changes])
+        trim += [[control.name, *values] for values in trim_angles(control, grid)]
+    columns = ["control", "deflection, deg", "Mach", "alpha, deg"]
+    changed = tables.Table("controls", "Changes by controls, the others at rest", [*columns, *names], rows, ["", *["+.4g"] * 9])
+    held = "Trim: the incidence without a pitching moment, between those computed"
+    trimmed = tables.Table("trim", held, [*columns[:3], "alpha, deg", "CN"], trim, ["", *[".4g"] * 4])
+    left = "".join(f'<p class="note">Left out: {escape(line)}.</p>' for line in left_out)
+    return write(changed, folder) + write(trimmed, folder) + left
 
 
 def motion(results: Results) -> tuple[str, str]:

@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <span>
 #include <vector>
@@ -103,6 +104,23 @@ std::string moment_row(const std::string& folder) {
   return fmt::format("{}  {:+.4f} to {:+.4f} in {} steps", bars_of(*moment), low, high, moment->size());
 }
 
+/// A string at the beginning of a result, which need not be parsed for it; empty where it is not found.
+std::string string_at(std::string_view head, std::string_view key) {
+  const auto start = head.find(fmt::format("\"{}\": \"", key));
+  if (start == std::string_view::npos) return "";
+  const auto quote = start + key.size() + 4;
+  auto end = quote + 1;
+  while (end < head.size() && head[end] != '"') end += head[end] == '\\' ? 2 : 1;
+  if (end >= head.size()) return "";
+  const auto text = Json::parse(head.substr(quote, end + 1 - quote), nullptr, false);
+  return text.is_string() ? text.get<std::string>() : "";
+}
+
+std::string name_of(const std::string& folder) {
+  const auto path = fs::absolute(folder).lexically_normal();
+  return path.filename().empty() ? path.parent_path().filename() : path.filename();
+}
+
 std::string phase_text(const Json& progress) {
   std::string phase = text_of(progress, "phase");
   if (phase == "steady")
@@ -121,10 +139,22 @@ bool is_run_folder(const std::string& folder) {
          fs::exists(folder + "/steady.csv");
 }
 
+RunView glance_at_run(const std::string& folder) {
+  constexpr std::size_t enough = 4096;  // status and message come first
+  std::string head(enough, ' ');
+  std::ifstream result(folder + "/result.json", std::ios::binary);
+  if (!result || fs::exists(folder + "/progress.json")) return view_run(folder);
+  result.read(head.data(), enough);
+  RunView out;
+  out.name = name_of(folder);
+  out.state = string_at(head, "status");
+  out.message = string_at(head, "message");
+  return out.state.empty() ? view_run(folder) : out;
+}
+
 RunView view_run(const std::string& folder) {
   RunView out;
-  out.name = fs::absolute(folder).lexically_normal().filename();
-  if (out.name.empty()) out.name = fs::absolute(folder).lexically_normal().parent_path().filename();
+  out.name = name_of(folder);
   const std::string progress_file = folder + "/progress.json";
   const Json progress = read_json(progress_file);
   const Json result = read_json(folder + "/result.json");

@@ -27,6 +27,10 @@ struct RunView {
 /// Reads a folder. A file that is missing or not whole leaves its part empty.
 RunView view_run(const std::string& folder);
 
+/// The same for a list of thousands: of a run that has ended its name, state and message alone, and no tables
+/// of any.
+RunView glance_at_run(const std::string& folder);
+
 /// Whether a folder holds files of a run.
 bool is_run_folder(const std::string& folder);
 

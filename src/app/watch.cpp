@@ -1,10 +1,12 @@
 // The verb "watch": follows a run, or every run of a sweep, in the terminal.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
+#include <map>
 #include <thread>
 #include <vector>
 
@@ -19,7 +21,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr Real long_silence = 30;  // seconds
+constexpr Real long_silence = 30;           // seconds
+constexpr std::size_t most_in_detail = 60;  // runs of a sweep
 
 /// "running, silent for 12 min 00 s", "interrupted: stopped by a signal"
 std::string state_text(const RunView& view) {
@@ -44,8 +47,31 @@ std::string page_of(const RunView& view) {
   return out;
 }
 
+/// Of a great many: those at work, those that did not come to a good end, and how many are in which state.
+std::string short_page_of(const std::string& folder, const std::vector<RunView>& views) {
+  std::map<std::string, std::size_t> counts;
+  std::vector<std::string> lines;
+  std::size_t more = 0;
+  for (const auto& view : views) {
+    ++counts[view.state];
+    if (view.state == "converged" || view.state == "completed") continue;
+    if (lines.size() == most_in_detail) {
+      ++more;
+      continue;
+    }
+    lines.push_back(fmt::format("  {}  {}{}{}\n", view.name, state_text(view), view.phase.empty() ? "" : ", ",
+                                view.phase));
+  }
+  std::string out = fmt::format("{}\n{}", folder, fmt::join(lines, ""));
+  if (more) out += fmt::format("  and {} more\n", more);
+  out += fmt::format("{} runs:", views.size());
+  for (const auto& [state, count] : counts) out += fmt::format(" {} {}", count, state);
+  return out + "\n";
+}
+
 /// Many runs, two lines each, and how many are in which state.
 std::string page_of(const std::string& folder, const std::vector<RunView>& views) {
+  if (views.size() > most_in_detail) return short_page_of(folder, views);
   std::string out = folder + "\n";
   std::size_t width = 0, running = 0;
   for (const auto& view : views) width = std::max(width, view.name.size());
@@ -61,9 +87,12 @@ std::string page_of(const std::string& folder, const std::vector<RunView>& views
 }
 
 std::vector<RunView> runs_in(const std::string& folder) {
-  std::vector<RunView> out;
+  std::vector<std::string> folders;
   for (const auto& entry : fs::directory_iterator(folder))
-    if (entry.is_directory() && is_run_folder(entry.path())) out.push_back(view_run(entry.path()));
+    if (entry.is_directory() && is_run_folder(entry.path())) folders.push_back(entry.path());
+  std::vector<RunView> out;
+  for (const auto& run : folders)
+    out.push_back(folders.size() > most_in_detail ? glance_at_run(run) : view_run(run));
   std::ranges::sort(out, {}, &RunView::name);
   return out;
 }

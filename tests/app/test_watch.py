@@ -131,6 +131,19 @@ class Watch(unittest.TestCase):
         self.assertRegex(page, r"b_live +running, ")
         self.assertIn("2 runs, 1 at work", page)
 
+    def test_many_runs_are_counted(self) -> None:
+        """Those that came to a good end are a number; the others are named, by the head of a result that may be long."""
+        for number in range(100):
+            folder = self.folder / "many" / f"run_{number:02}"
+            folder.mkdir(parents=True)
+            status, message = ("not_converged", 'dropped "1.3" of 3') if number == 7 else ("converged", "")
+            text = json.dumps({"status": status, "message": message, "case": "x" * 10_000})
+            (folder / "result.json").write_text(text[:50] if number == 8 else text)
+        page = self.watch("many", "--once")
+        self.assertRegex(page, r'\n  run_07  not_converged: dropped "1.3" of 3\n')
+        self.assertNotIn("run_01", page)
+        self.assertIn("100 runs: 99 converged 1 not_converged\n", page)
+
     def test_nothing_to_watch(self) -> None:
         self.assertIn("no such folder", self.watch("nowhere", "--once", code=1))
         self.assertIn("there is no run", self.watch(".", "--once", code=1))

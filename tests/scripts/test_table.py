@@ -182,6 +182,13 @@ class Tables(Workspace):
             wanted = loads(mach, math.radians(alpha), 0.0)
             self.assertAlmostEqual(found["NORMAL"], wanted["NORMAL"] + Q_S * 0.01 * gain(mach) * degrees)
             self.assertAlmostEqual(found["PITCH"], wanted["PITCH"] - Q_S_L * 0.05 * gain(mach) * degrees)
+        self.sweep("report")
+        with open(self.folder / "runs/report/trim.csv") as file:
+            trim = {(row["deflection, deg"], row["Mach"]): float(row["alpha, deg"]) for row in csv.DictReader(list(file)[1:])}
+        # Cm = Cm_alpha alpha - 0.05 d at Mach 2; -5 degrees hold it where that is zero, 10 degrees below what was computed.
+        held = math.degrees(-0.05 * 5 / model(2, 0, 0)[1]["Cm_alpha"])
+        self.assertAlmostEqual(trim["-5.0", "2.0"], held)
+        self.assertNotIn(("10.0", "2.0"), trim)
         mat = loadmat(self.table / "aero.mat", simplify_cells=True)["aero"]
         self.assertEqual(mat["pitch"]["degrees"].tolist(), [-5, 0, 10])
         self.assertAlmostEqual(mat["pitch"]["dCN"][2, 0, 1], 0.2)
