@@ -12,7 +12,9 @@ from sweep.axes import BODY_ANGLES
 from sweep.database import COEFFICIENTS
 from sweep.grid import Grid
 
-AXES = {"CA": "AXIAL", "CY": "SIDE", "CN": "NORMAL", "Cl": "ROLL", "Cm": "PITCH", "Cn": "YAW"}
+# The body's axes, forward, starboard and down; JSBSim also knows AXIAL and NORMAL, its schema does not.
+AXES = {"CA": "X", "CY": "Y", "CN": "Z", "Cl": "ROLL", "Cm": "PITCH", "Cn": "YAW"}
+OPPOSITE = ("CA", "CN")  # aft and up
 ALPHA, BETA, MACH = "aero/alpha-rad", "aero/beta-rad", "velocities/mach"
 REDUCED = {  # properties in rad/s; times aero/ci2vel, chord / 2V, they are what the derivatives are by
     "p": "velocities/p-aero-rad_sec", "q": "velocities/q-aero-rad_sec", "r": "velocities/r-aero-rad_sec",
@@ -38,11 +40,12 @@ def aerodynamics(grid: Grid, controls: Sequence[Control], title: str) -> str:
     """The XML element. JSBSim holds the value at the edge of a table outside of it."""
     out = ["<aerodynamics>", f"  <!-- {comment(grid, controls, title)} -->"]
     for coefficient in COEFFICIENTS:
-        out.append(f'  <axis name="{AXES[coefficient]}">')
+        functions: list[str] = []
         for name, factors, axes, values in terms(grid, controls, coefficient):
             if np.any(values):
-                out += function(name, coefficient, factors, axes, values)
-        out.append("  </axis>")
+                functions += function(name, coefficient, factors, axes, values)
+        if functions:
+            out += [f'  <axis name="{AXES[coefficient]}">', *functions, "  </axis>"]
     return "\n".join([*out, "</aerodynamics>", ""])
 
 
@@ -70,7 +73,8 @@ def terms(grid: Grid, controls: Sequence[Control], coefficient: str):
 
 
 def function(name: str, coefficient: str, factors: Sequence[str], axes: Sequence[Axis], values: np.ndarray) -> list[str]:
-    scale = [prop("aero/qbar-area")] + ([prop("metrics/cbarw-ft")] if coefficient in ("Cl", "Cm", "Cn") else [])
+    scale = ["<value>-1</value>"] if coefficient in OPPOSITE else []
+    scale += [prop("aero/qbar-area")] + ([prop("metrics/cbarw-ft")] if coefficient in ("Cl", "Cm", "Cn") else [])
     return [
         f'    <function name="aero/coefficient/{name}">',
         "      <product>",

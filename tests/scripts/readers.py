@@ -1,7 +1,7 @@
 """Independent readers of tables that `sweep.py table` writes, from the documentation of the formats; nothing of the writers is used.
 
 JSBSim: "FGTable" and "FGFunction" of its reference manual: a product of properties, values and tables; linear between breakpoints, the
-edge's value outside. AXIAL and NORMAL are forces aft and up, SIDE to starboard; ROLL, PITCH, YAW moments about forward, starboard, down.
+edge's value outside. X, Y, Z are forces forward, to starboard and down; ROLL, PITCH, YAW moments about these axes.
 RocketPy: docs/user/rocket/generic_surface.rst: forces on axes starboard, down, forward are M_BA (cQ, -cL, -cD) q S, moments (cm, cn, cl)
 q S l; of a linear surface C_0 + C_alpha alpha + C_beta beta and (l / 2V) (C_p p + C_q q + C_r r).
 """
@@ -15,7 +15,7 @@ from pathlib import Path
 
 import numpy as np
 
-JSBSIM_AXES = ("AXIAL", "SIDE", "NORMAL", "ROLL", "PITCH", "YAW")
+JSBSIM_AXES = ("X", "Y", "Z", "ROLL", "PITCH", "YAW")
 
 
 def linear(at: float, keys: list[float], values: list[float]) -> float:
@@ -65,9 +65,11 @@ def jsbsim_loads(path: Path, properties: dict[str, float]) -> dict[str, float]:
     """Forces and moments by axis."""
     root = ElementTree.parse(path).getroot()
     assert root.tag == "aerodynamics"
-    return {
-        axis.get("name"): sum(value(function[0], properties) for function in axis.findall("function")) for axis in root.findall("axis")
-    }
+    out = dict.fromkeys(JSBSIM_AXES, 0.0)
+    for axis in root.findall("axis"):
+        assert axis.get("name") in out and len(axis), axis.get("name")
+        out[axis.get("name")] += sum(value(function[0], properties) for function in axis.findall("function"))
+    return out
 
 
 def flown(

@@ -13,7 +13,7 @@ import unittest
 
 import h5py
 import numpy as np
-from readers import csv_value, flown, jsbsim_loads, rocketpy_generic, rocketpy_linear
+from readers import JSBSIM_AXES, csv_value, flown, jsbsim_loads, rocketpy_generic, rocketpy_linear
 from scipy.io import loadmat
 from stub_runs import finish, finish_all
 from workspace import HEAD, Workspace
@@ -39,7 +39,7 @@ def loads(mach: float, alpha: float, beta: float, p=0.0, q=0.0, r=0.0, alphadot=
     force = np.array([-CA * Q_S, -Q_S * slope(mach) * met[1] / SPEED, -Q_S * slope(mach) * met[2] / SPEED])
     moment = np.cross([-X, 0, 0], force)
     moment[0] -= Q_S * slope(mach) * R * (p * R / SPEED)  # the tips go up and down at p R
-    return dict(zip(("AXIAL", "SIDE", "NORMAL", "ROLL", "PITCH", "YAW"), (-force[0], force[1], -force[2], *moment)))
+    return dict(zip(JSBSIM_AXES, (*force, *moment)))
 
 
 def model(mach: float, alpha: float, beta: float) -> tuple[dict, dict]:
@@ -94,7 +94,7 @@ class Tables(Workspace):
         self.check_jsbsim([(1.5, 0, 0), (2, 4, 3), (3, -4, -3), (2, 1, -1)])
         # Linear between Mach numbers, and the edge's value outside.
         flight = {"speed": SPEED, "pressure": PRESSURE, "area": AREA, "length": LENGTH}
-        normal = lambda mach, alpha: jsbsim_loads(self.table / "aerodynamics.jsbsim.xml", flown(mach, alpha, **flight))["NORMAL"]
+        normal = lambda mach, alpha: jsbsim_loads(self.table / "aerodynamics.jsbsim.xml", flown(mach, alpha, **flight))["Z"]
         self.assertAlmostEqual(normal(2.5, 4), 0.5 * (normal(2, 4) + normal(3, 4)), places=6)
         self.assertAlmostEqual(normal(5, 9), normal(3, 4), places=9)
 
@@ -114,7 +114,7 @@ class Tables(Workspace):
             for motion in ({}, {"r": 1.0}, {"betadot": -2.0}):
                 found = jsbsim_loads(self.table / "aerodynamics.jsbsim.xml", flown(2, alpha, beta, **flight, **motion))
                 wanted = loads(2, math.radians(alpha), math.radians(beta), **motion)
-                for axis in ("SIDE", "YAW"):
+                for axis in ("Y", "YAW"):
                     self.assertAlmostEqual(found[axis], wanted[axis], delta=1e-9 * abs(wanted[axis]))
         # Mirrored below, too.
         self.assertAlmostEqual(csv_value(self.table / "rocketpy/generic/cm.csv", mach=2, alpha=-math.radians(4), beta=0.0), -csv_value(
@@ -135,12 +135,12 @@ class Tables(Workspace):
         for mach, alpha, beta in ((1.5, 0, 0), (2, 4, 0), (3, -4, 0), (2, 0, 3), (2, 0, -3)):
             force, moment = rocketpy_generic(generic, mach, math.radians(alpha), math.radians(beta))
             wanted = loads(mach, math.radians(alpha), math.radians(beta))
-            np.testing.assert_allclose(Q_S * force, (wanted["SIDE"], -wanted["NORMAL"], -wanted["AXIAL"]), atol=1e-9)
+            np.testing.assert_allclose(Q_S * force, (wanted["Y"], wanted["Z"], wanted["X"]), atol=1e-9)
             np.testing.assert_allclose(Q_S_L * moment, (wanted["PITCH"], wanted["YAW"], wanted["ROLL"]), atol=1e-9)
         for motion in ({"q": 2.0}, {"r": -1.0}, {"p": 30.0}):
             force, moment = rocketpy_linear(line, 2, 0, 0, LENGTH / (2 * SPEED), motion)
             wanted = loads(2, 0, 0, **motion)
-            np.testing.assert_allclose(Q_S * force, (wanted["SIDE"], -wanted["NORMAL"], -wanted["AXIAL"]), atol=1e-9)
+            np.testing.assert_allclose(Q_S * force, (wanted["Y"], wanted["Z"], wanted["X"]), atol=1e-9)
             np.testing.assert_allclose(Q_S_L * moment, (wanted["PITCH"], wanted["YAW"], wanted["ROLL"]), atol=1e-9)
         # Along a straight path alphadot is q and betadot is -r.
         for motion, sums in (({"q": 2.0}, {"q": 2.0, "alphadot": 2.0}), ({"r": -1.0}, {"r": -1.0, "betadot": 1.0})):
@@ -152,7 +152,7 @@ class Tables(Workspace):
         for alpha, beta in ((small, 0), (0, small)):
             force, _ = rocketpy_linear(line, 2, alpha, beta, 0.0, {})
             wanted = loads(2, alpha, beta)
-            np.testing.assert_allclose(Q_S * force, (wanted["SIDE"], -wanted["NORMAL"], -wanted["AXIAL"]), atol=1e-6)
+            np.testing.assert_allclose(Q_S * force, (wanted["Y"], wanted["Z"], wanted["X"]), atol=1e-6)
 
     def test_fly_without_rocketpy_says_so(self) -> None:
         self.made(GRID)
@@ -180,7 +180,7 @@ class Tables(Workspace):
         for mach, alpha, degrees in ((1.5, 0, -5), (2, 4, 10), (2, 2, 5), (2, 0, 0)):
             found = jsbsim_loads(self.table / "aerodynamics.jsbsim.xml", flown(mach, alpha, **flight, **{"fcs/pitch-deg": degrees}))
             wanted = loads(mach, math.radians(alpha), 0.0)
-            self.assertAlmostEqual(found["NORMAL"], wanted["NORMAL"] + Q_S * 0.01 * gain(mach) * degrees)
+            self.assertAlmostEqual(found["Z"], wanted["Z"] - Q_S * 0.01 * gain(mach) * degrees)
             self.assertAlmostEqual(found["PITCH"], wanted["PITCH"] - Q_S_L * 0.05 * gain(mach) * degrees)
         self.sweep("report")
         with open(self.folder / "runs/report/trim.csv") as file:
