@@ -27,8 +27,9 @@ def text(grid: Grid, title: str) -> str:
             lines += ["", "", f"{head}   STATIC COEFFICIENTS", ""]
             lines += block(grid, mach, beta, ("CN", "Cm", "CA", "CY", "Cn", "Cl"), extra=True)
             names = [name for name in ("CN_alpha", "Cm_alpha", "CY_beta", "Cn_beta", "Cl_beta") if name in grid.derivatives]
-            lines += ["", f"{head}   STATIC DERIVATIVES (PER RADIAN)", ""]
-            lines += block(grid, mach, beta, names)
+            if names:
+                lines += ["", f"{head}   STATIC DERIVATIVES (PER RADIAN)", ""]
+                lines += block(grid, mach, beta, names)
             names = [name for name in DAMPING if name in grid.derivatives]
             if names:
                 lines += ["", f"{head}   DYNAMIC DERIVATIVES (PER RADIAN OF RATE x LENGTH / 2V)", ""]
@@ -52,5 +53,5 @@ def block(grid: Grid, mach: float, beta: float, names: tuple[str, ...] | list[st
             normal, axial = point.coefficients["CN"], point.coefficients["CA"]
             values += [normal * c - axial * s, normal * s + axial * c]
             values.append(-point.coefficients["Cm"] / normal if abs(alpha) > 1e-6 and normal else point.static_margin)
-        out.append(f"{alpha:13.3f}" + "".join(f"{value:13.5g}" for value in values))
+        out.append(f"{alpha:13.3f}" + "".join(f"{value:13.5g}" if math.isfinite(value) else f"{'-':>13}" for value in values))
     return out

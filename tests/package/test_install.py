@@ -61,17 +61,20 @@ class Install(unittest.TestCase):
         for key in re.findall(r"^  ([a-z_]+) ", ran("alphadot", "keys", env=self.environment), re.MULTILINE):
             self.assertRegex(text, rf"\b{key}\b")
 
-    def completions(self, *words: str) -> list[str]:
+    def completions(self, *words: str, program: str = "alphadot") -> list[str]:
         """What bash offers for the last of the words."""
-        file = self.prefix / "share" / "bash-completion" / "completions" / "alphadot"
-        script = f'compopt() {{ :; }}; source {file}; COMP_WORDS=("$@"); COMP_CWORD=$(($# - 1)); _alphadot; echo "${{COMPREPLY[@]}}"'
-        return ran("bash", "-c", script, "bash", "alphadot", *words, env=self.environment).split()
+        file = self.prefix / "share" / "bash-completion" / "completions" / program
+        function = "_" + program.replace("-", "_")
+        script = f'compopt() {{ :; }}; source {file}; COMP_WORDS=("$@"); COMP_CWORD=$(($# - 1)); {function}; echo "${{COMPREPLY[@]}}"'
+        return ran("bash", "-c", script, "bash", program, *words, env=self.environment).split()
 
     def test_completion(self) -> None:
         self.assertEqual(self.completions("de"), ["derivatives", "derive"])
         self.assertEqual(self.completions("run", "--re"), ["--restart"])
         self.assertEqual(self.completions("mesh", "--no"), ["--no-picture"])
         self.assertEqual(self.completions("run", "case.toml", "--set", "freestream.m"), ["freestream.mach="])
+        self.assertEqual(self.completions("ta", program="alphadot-sweep"), ["table"])
+        self.assertEqual(self.completions("slurm", "x.toml", "--e", program="alphadot-sweep"), ["--each"])
 
     def test_scripts(self) -> None:
         """alphadot-sweep finds its modules, the cases and the program."""
