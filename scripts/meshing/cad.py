@@ -82,21 +82,38 @@ def _quiet_gmsh() -> Iterator[None]:
 def import_solids(path: Path, factor: float = 1.0) -> list[tuple[int, int]]:
     """The solids of a file into the current gmsh model, lengths times `factor`; loose faces are sewn to solids. Raises MeshError."""
     occ = gmsh.model.occ
-    # Read as millimetres, OpenCASCADE's own unit, in which its tolerances fit.
-    gmsh.option.setString("Geometry.OCCTargetUnit", "MM")
-    gmsh.option.setNumber("Geometry.OCCScaling", factor if path.suffix.lower() == ".brep" else 1e-3 * factor)
+    suffix = path.suffix.lower()
+    # Read as millimetres, OpenCASCADE's own unit, in which its tolerances fit. IGES is so by default, and gmsh fails when told.
+    gmsh.option.setString("Geometry.OCCTargetUnit", "" if suffix in (".iges", ".igs") else "MM")
+    gmsh.option.setNumber("Geometry.OCCScaling", factor if suffix == ".brep" else 1e-3 * factor)
     try:
         shapes = occ.importShapes(str(path))
     finally:
         gmsh.option.setNumber("Geometry.OCCScaling", 1.0)
     solids = [shape for shape in shapes if shape[0] == 3]
     if not solids:
-        faces = [shape for shape in shapes if shape[0] == 2]
-        if faces:
-            extent = np.ptp([occ.getBoundingBox(*face) for face in faces])
-            solids = [shape for shape in occ.healShapes(faces, SEWN * extent, True, False, False, True, True) if shape[0] == 3]
+        solids = _sewn([shape for shape in shapes if shape[0] == 2])
     if not solids:
         raise MeshError("it holds no solid, and its faces do not close one: export the body as a solid, without gaps")
+    return solids
+
+
+def _sewn(faces: list[tuple[int, int]]) -> list[tuple[int, int]]:
+    """The solids that loose faces close, if they do."""
+    if not faces:
+        return []
+    occ = gmsh.model.occ
+    extent = np.ptp([occ.getBoundingBox(*face) for face in faces])
+    healed = occ.healShapes(faces, SEWN * extent, True, False, False, True, True)
+    solids = [shape for shape in healed if shape[0] == 3]
+    if not solids:  # gmsh makes none of a shell with points for edges, such as that at the tip of a surface of revolution
+        solids = [(3, occ.addVolume([occ.addSurfaceLoop([tag for dimension, tag in healed if dimension == 2], sewing=True)]))]
+        occ.synchronize()
+        own = gmsh.model.getBoundary(solids, oriented=False)
+        rim = [curve for curve in gmsh.model.getBoundary(own, oriented=False) if occ.getMass(*curve) > SEWN * extent]
+        if rim:
+            return []
+        occ.remove([face for face in occ.getEntities(2) if face not in own], recursive=True)
     return solids
 
 

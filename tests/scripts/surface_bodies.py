@@ -76,6 +76,32 @@ def write_cad(path: Path, make: str) -> Path:
     return path
 
 
+def write_iges(path: Path, profile: list[tuple[float, float]]) -> Path:
+    """A body of revolution through points (x, r), in millimetres, as loose faces: a surface of revolution (entity 120 of the Initial
+    Graphics Exchange Specification 5.3) for each line of the profile."""
+    axis = "110,0.,0.,0.,1.,0.,0.;"
+    entities = [(110, axis)]
+    for (x, r), (x_next, r_next) in zip(profile, profile[1:]):
+        entities.append((110, f"110,{x:.4f},{r:.4f},0.,{x_next:.4f},{r_next:.4f},0.;"))
+        entities.append((120, f"120,1,{2 * len(entities) - 1},0.,6.283185307179586;"))
+    start = ["A body for a test"]
+    units = "1H,,1H;,4Hbody,9Hbody.iges,5Htests,5Htests,32,38,6,308,15,4Hbody,1.,2,2HMM,1,1.,15H20000101.000000,1.E-4,1000.,,,11,0,;"
+    header = [units[i : i + 72] for i in range(0, len(units), 72)]
+    directory, parameters = [], []
+    for number, (kind, text) in enumerate(entities):
+        hidden = 0 if kind == 120 else 1  # lines serve the surfaces only
+        place = len(parameters) + 1
+        lines = [text[i : i + 64] for i in range(0, len(text), 64)]
+        parameters += [f"{line:<64s} {2 * number + 1:7d}" for line in lines]
+        directory.append("".join(f"{value:>8}" for value in (kind, place, 0, 0, 0, 0, 0, 0, f"00{hidden:02d}0000")))
+        directory.append("".join(f"{value:>8}" for value in (kind, 0, 0, len(lines), 0, "", "", "", 0)))
+    sections = {"S": start, "G": header, "D": directory, "P": parameters}
+    sections["T"] = ["".join(f"{letter}{len(rows):7d}" for letter, rows in sections.items())]
+    rows = [f"{row:<72s}{letter}{number:7d}" for letter, section in sections.items() for number, row in enumerate(section, start=1)]
+    path.write_text("\n".join(rows) + "\n")
+    return path
+
+
 def _body(length: float = 700.0) -> list[tuple[int, int]]:
     occ = gmsh.model.occ
     cone, tube = (3, occ.addCone(0, 0, 0, 300, 0, 0, 0, 50)), (3, occ.addCylinder(300, 0, 0, length - 300, 0, 0, 50))

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import gmsh
 import numpy as np
-from surface_bodies import Triangles, cone_cylinder, delta_wing, ellipsoid, revolved, write_cad, write_stl
+from surface_bodies import Triangles, cone_cylinder, delta_wing, ellipsoid, revolved, write_cad, write_iges, write_stl
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "scripts"))
 
@@ -74,6 +74,23 @@ class Reading(Files):
         )
         shape = self.read("wing.i.tri", "\n".join([*rows, *labels]))
         self.assertEqual(shape.surface.names, ("Upper", "part_2"))
+
+    def test_iges_and_brep(self) -> None:
+        # A cone of 300 and a cylinder of 400 behind it, of radius 50: pi r^2 (l / 3 + l'). IGES has a unit and loose faces, BREP a solid
+        # and no unit; the fins of the solid are eight wedges of 80 by 100 by 4 / 2 outside of the body.
+        round_body = math.pi * 50.0**2 * (300.0 / 3.0 + 400.0)
+        profile = [(0.0, 0.0), (300.0, 50.0), (700.0, 50.0), (700.0, 0.0)]
+        for file, volume, length in (
+            (write_iges(self.folder / "body.iges", profile), 1e-9 * round_body, 0.7),
+            (write_cad(self.folder / "body.brep", "finned"), round_body + 8 * 80.0 * 100.0 * 2.0, 700.0),
+        ):
+            with self.subTest(file.name):
+                shape = read_missile(file, None)
+                self.assertAlmostEqual(shape.length / length, 1.0, places=9)
+                self.assertAlmostEqual(shape.surface.volume / volume, 1.0, delta=0.01)  # 30 sides around: 0.7 % less
+                self.assertEqual(shape.surface.names, ("body", "base"))
+                self.assertTrue(shape.is_symmetric(1) and shape.is_symmetric(2))
+        self.refused(write_iges(self.folder / "open.igs", profile[:-1]), "its faces do not close one")
 
     def test_axes_boxes_and_units(self) -> None:
         points, triangles = cone_cylinder()
@@ -140,6 +157,11 @@ class Meshes(Files):
                 exact = share * base * (0.49 if make == "boattailed" else 1.0)
                 # As few cells make a disc of as few as twelve sides.
                 self.assertAlmostEqual(self.area(made, "base"), exact, delta=0.06 * exact)
+
+    def test_iges(self) -> None:
+        made = self.made(write_iges(self.folder / "body.igs", [(0.0, 0.0), (300.0, 50.0), (700.0, 50.0), (700.0, 0.0)]), "half")
+        cone = 0.5 * math.pi * 0.05 * (math.hypot(0.3, 0.05) + 2.0 * 0.4)
+        self.assertAlmostEqual(self.area(made, "body"), cone, delta=0.03 * cone)
 
     def test_five_triangulations(self) -> None:
         points, triangles = cone_cylinder()
