@@ -11,10 +11,15 @@
 #include <sstream>
 
 #include "app/companion.hpp"
+#include "case_file/case_file.hpp"
 #include "core/error.hpp"
 #include "core/log.hpp"
+#include "core/words.hpp"
+#include "io/toml_text.hpp"
 
 namespace alphadot {
+
+namespace fs = std::filesystem;
 
 namespace {
 
@@ -27,7 +32,7 @@ bool describes_body(std::istream& text) {
   return false;
 }
 
-bool is_description(const std::filesystem::path& file) {
+bool is_description(const fs::path& file) {
   constexpr std::array designs{".ork", ".cdx1", ".step", ".stp", ".iges",
                                ".igs", ".brep", ".stl",  ".obj", ".tri"};
   std::string suffix = file.extension().string();
@@ -45,28 +50,68 @@ std::optional<std::string> overridden(const std::vector<std::string>& overrides,
   return out;
 }
 
+/// Has a description meshed, or finds what was made before: the case file that came of it, in the folder of
+/// the meshes.
+fs::path kept_case(const std::string& description, const std::string& level, const std::string& mach,
+                   const std::string& model) {
+  std::vector<std::string> words{description, "--kept", "--level", level};
+  if (!mach.empty()) words.insert(words.end(), {"--at-mach", mach});
+  if (!model.empty()) words.insert(words.end(), {"--model", model});
+  spdlog::info("{}: meshed, unless that was done before", description);
+  fs::path made = output_of_companion("mesh.py", words);
+  if (!fs::exists(made)) throw InputError(description, 0, "has not been meshed", "see the lines above");
+  return made;
+}
+
+/// The overrides that give a case the mesh made from the description that it names: none where it names none,
+/// or has mistakes, of which others tell.
+std::array<std::string, 2> made_mesh(const CaseArguments& arguments) {
+  const auto& path = arguments.case_file;
+  const auto draft = draft_case(read_case_text(path), path, arguments.overrides);
+  const Case& c = draft.settings;
+  if (!draft.problems.empty() || c.mesh.from.empty()) return {};
+  const auto level = word_of(c.mesh.level);
+  const auto folder = kept_case(c.mesh.from, level, fmt::format("{}", c.freestream.mach),
+                                c.reference.half_model ? "half" : "full")
+                          .parent_path();
+  const auto file = [&](const std::string& name) { return toml_string((folder / (name + ".msh")).string()); };
+  std::array<std::string, 2> out{"mesh.file=" + file(level)};
+  if (c.derivatives.coarser_meshes.empty() && c.mesh.level != Fineness::tiny) {
+    const auto coarser = static_cast<Fineness>(static_cast<int>(c.mesh.level) - 1);
+    out[1] = "derivatives.coarser_meshes=[" + file(word_of(coarser)) + "]";
+  }
+  return out;
+}
+
 }  // namespace
 
 void mesh_description(CaseArguments& arguments, const Communicator& comm) {
+  auto& overrides = arguments.overrides;
+  const auto drop = [&](std::string_view key) {
+    std::erase_if(overrides, [&](const std::string& text) { return text.starts_with(key); });
+  };
   std::string made;
+  std::array<std::string, 2> more;
   comm.on_root([&] {
     const auto& file = arguments.case_file;
-    if (file.empty() || !is_description(file)) return;
-    std::vector<std::string> words{file, "--kept", "--level",
-                                   overridden(arguments.overrides, "mesh.level").value_or("coarse")};
-    if (const auto mach = overridden(arguments.overrides, "freestream.mach")) {
-      words.emplace_back("--at-mach");
-      words.push_back(*mach);
-    }
-    spdlog::info("{}: meshed, unless that was done before", file);
-    made = output_of_companion("mesh.py", words);
-    if (!std::filesystem::exists(made))
-      throw InputError(file, 0, "has not been meshed", "see the lines above");
+    if (file.empty()) return;
+    if (is_description(file))
+      made = kept_case(file, overridden(overrides, "mesh.level").value_or("coarse"),
+                       overridden(overrides, "freestream.mach").value_or(""), "");
+    else
+      more = made_mesh(arguments);
   });
   made = comm.broadcast(made);
-  if (made.empty()) return;
-  arguments.case_file = made;
-  std::erase_if(arguments.overrides, [](const std::string& text) { return text.starts_with("mesh.level="); });
+  if (!made.empty()) {
+    arguments.case_file = made;
+    drop("mesh.level=");
+  }
+  for (auto& assignment : more) {
+    assignment = comm.broadcast(assignment);
+    if (assignment.empty()) continue;
+    drop("mesh.from=");
+    overrides.push_back(assignment);
+  }
 }
 
 }  // namespace alphadot

@@ -103,6 +103,7 @@ class CaseReader {
     CaseDraft out;
     Case& c = out.settings;
     c.file = path_;
+    choose_mesh();
     for (const auto& [path, entry] : entries_) {
       const auto name = std::string_view(path).substr(entry.key->table().size());
       if (auto problem = entry.key->read(name, *entry.node, c))
@@ -160,8 +161,28 @@ class CaseReader {
     }
   }
 
+  /// mesh.file and mesh.from exclude each other: an override of either is in place of what the file says.
+  void choose_mesh() {
+    const auto is_given = [&](const char* key) {
+      const auto entry = entries_.find(key);
+      return entry != entries_.end() && entry->second.node->value<std::string>() != "";
+    };
+    if (!is_given("mesh.from")) {
+      entries_.erase("mesh.from");
+    } else if (!is_given("mesh.file")) {
+      entries_.erase("mesh.file");
+    } else {
+      const bool from_in_file = entries_["mesh.from"].line > 0, file_in_file = entries_["mesh.file"].line > 0;
+      if (from_in_file != file_in_file)
+        entries_.erase(from_in_file ? "mesh.from" : "mesh.file");
+      else
+        complain_about({"mesh.from"}, "mesh.from and mesh.file are both given", "leave out either of them");
+    }
+  }
+
   void check_required() {
     for (const auto& key : case_keys()) {
+      if (key.path == "mesh.file" && entries_.contains("mesh.from")) continue;
       const auto is_given = [&](const auto& path_and_entry) { return path_and_entry.second.key == &key; };
       if (!key.required || std::ranges::any_of(entries_, is_given)) continue;
       const std::string table(key.table().substr(0, key.table().size() - 1));
@@ -240,7 +261,7 @@ class CaseReader {
 
   /// Defaults that depend on other keys, and absolute paths.
   void fill_in(Case& c) const {
-    std::vector<std::string*> files{&c.mesh.file, &c.motion.table_file};
+    std::vector<std::string*> files{&c.mesh.file, &c.mesh.from, &c.motion.table_file};
     for (auto& file : c.derivatives.coarser_meshes) files.push_back(&file);
     for (auto* file : files)
       if (!file->empty()) *file = fs::absolute(fs::path(path_).parent_path() / *file).lexically_normal();

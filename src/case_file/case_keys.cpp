@@ -77,8 +77,17 @@ std::vector<CaseKey> make_keys() {
       "what the case is, for people"));
 
   Table(keys, "mesh", &Case::mesh)
-      .key("file", &MeshSettings::file, TextValue{}, "mesh, relative to the folder of the case file")
+      .key("file", &MeshSettings::file, TextValue{},
+           "mesh, relative to the folder of the case file; or else mesh.from")
       .required()
+      .key("from", &MeshSettings::from, TextValue{.may_be_empty = true},
+           "in place of mesh.file: a description as alphadot mesh takes it, relative to the folder of the "
+           "case "
+           "file; its mesh, and the next coarser one for the uncertainty, are made once, kept in meshes/ "
+           "beside "
+           "it and found again as long as nothing changes that they come from")
+      .key("level", &MeshSettings::level, WordValue{words_of<Fineness>},
+           "of the mesh that is made from mesh.from")
       .key("scale", &MeshSettings::scale, length, "mesh units to the units of [reference]")
       .key(
           "thin", &MeshSettings::thin, TextsValue{.most = 1000},

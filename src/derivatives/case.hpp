@@ -13,8 +13,22 @@
 
 namespace alphadot {
 
+/// How fine a mesh is that is made from a description.
+enum class Fineness { tiny, coarse, medium, fine };
+
+namespace words {
+inline constexpr Word<Fineness> fineness[] = {{"tiny", Fineness::tiny},
+                                              {"coarse", Fineness::coarse},
+                                              {"medium", Fineness::medium},
+                                              {"fine", Fineness::fine}};
+}
+template <>
+inline constexpr std::span<const Word<Fineness>> words_of<Fineness> = words::fineness;
+
 struct MeshSettings {
   std::string file;                    ///< as resolved against the case file's folder
+  std::string from;                    ///< in place of the file: a description to make it from
+  Fineness level = Fineness::coarse;   ///< of that mesh
   Real scale = 1;                      ///< mesh units to the units of [reference]
   std::vector<std::string> thin = {};  ///< patches inside the mesh that become walls with two sides
 };

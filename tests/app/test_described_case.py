@@ -41,6 +41,50 @@ class DescribedCase(unittest.TestCase):
             self.assertEqual(outside.codes, [1] * RANKS)
             self.assertIn("missile.toml: the mesh is for Mach 1.8 to 2.5, not for freestream.mach = 3", outside.err)
 
+    def test_case_that_takes_its_mesh_from_a_description(self) -> None:
+        case = """[mesh]
+from = "bodies/missile.toml"
+level = "tiny"
+[reference]
+model = "half"
+[freestream]
+mach = 2
+[boundary]
+nose = "wall"
+body = "wall"
+base = "jet"
+symmetry = "symmetry"
+farfield = "farfield"
+"""
+        with tempfile.TemporaryDirectory() as name:
+            folder = Path(name)
+            (folder / "bodies").mkdir()
+            (folder / "bodies" / "missile.toml").write_text(MISSILE)
+            (folder / "case.toml").write_text(case)
+            first = run(folder, "check", "case.toml")
+            self.assertEqual(first.codes, [0] * RANKS, first.err)
+            (kept,) = (folder / "bodies" / "meshes").iterdir()
+            mesh = kept / "tiny.msh"
+            made = mesh.stat().st_mtime_ns
+            # 30,000 cells, within 15 %.
+            self.assertRegex(first.out, r"\b(2[6-9]|3[0-4]),?\d{3} cells")
+            # Found again from elsewhere and at another Mach number.
+            again = run(folder, "check", folder / "case.toml", "--set", "freestream.mach=2.5")
+            self.assertEqual(again.codes, [0] * RANKS, again.err)
+            self.assertEqual([path.name for path in (folder / "bodies" / "meshes").iterdir()], [kept.name])
+            self.assertEqual(mesh.stat().st_mtime_ns, made)
+            outside = run(folder, "check", "case.toml", "--set", "freestream.mach=1.5")
+            self.assertEqual(outside.codes, [1] * RANKS)
+            self.assertIn("missile.toml: the mesh is for Mach 1.8 to 2.5, not for freestream.mach = 1.5", outside.err)
+            both = run(folder, "check", "case.toml", "--set", "mesh.from=bodies/missile.toml", "mesh.file=x.msh")
+            self.assertEqual(both.codes, [1] * RANKS)
+            self.assertIn("mesh.from and mesh.file are both given", both.err)
+            # What the mesh comes from is read again.
+            (folder / "bodies" / "missile.toml").write_text(MISSILE.replace("length = 4", "length = -4"))
+            wrong = run(folder, "check", "case.toml")
+            self.assertEqual(wrong.codes, [1] * RANKS)
+            self.assertIn("missile.toml:8: length = -4", wrong.err)
+
     def test_mistakes_are_those_of_the_description(self) -> None:
         with tempfile.TemporaryDirectory() as name:
             folder = Path(name)

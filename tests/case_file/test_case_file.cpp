@@ -281,6 +281,29 @@ TEST(CaseFile, AStepThatLacksTwoThingsIsToldOfEachOnce) {
   EXPECT_NE(problems[1].what.find("unsteady.steps = 0 gives no derivatives"), std::string::npos);
 }
 
+TEST(CaseFile, MeshIsAFileOrMadeFromADescription) {
+  const std::string rest = "[freestream]\nmach = 2.5\n[boundary]\nbody = \"wall\"\n";
+  const std::string described = "[mesh]\nfrom = \"missile.toml\"\nlevel = \"fine\"\n" + rest;
+  const auto here = [](const char* name) { return (std::filesystem::current_path() / "a" / name).string(); };
+  const Case made = parse_case(described, "a/case.toml");
+  EXPECT_EQ(made.mesh.from, here("missile.toml"));
+  EXPECT_EQ(made.mesh.level, Fineness::fine);
+  EXPECT_EQ(made.mesh.file, "");
+  expect_same(parse_case(resolved_case(made), "b/case.toml"), made);
+  // What the command line says is in place of what the file says.
+  const Case read = parse_case(described, "a/case.toml", {"mesh.file=x.msh"});
+  EXPECT_EQ(read.mesh.file, here("x.msh"));
+  EXPECT_EQ(read.mesh.from, "");
+  const Case other = parse_case(minimal, "a/case.toml", {"mesh.from=x.stl"});
+  EXPECT_EQ(other.mesh.file, "");
+  EXPECT_EQ(other.mesh.from, here("x.stl"));
+  const auto problems = problems_of("[mesh]\nfile = \"x.msh\"\nfrom = \"missile.toml\"\n" + rest);
+  ASSERT_EQ(problems.size(), 1u);
+  EXPECT_EQ(problems[0].text(),
+            "case.toml:3: mesh.from and mesh.file are both given; leave out either of them");
+  EXPECT_EQ(problems_of(described, {"mesh.file=x.msh", "mesh.from=x.stl"}).size(), 1u);
+}
+
 TEST(CaseFile, AllProblemsComeAtOnceInTheOrderOfTheFile) {
   const auto problems =
       problems_of("[mesh]\nscale = 0\n[freestream]\nmach = -2\n[boundary]\n[space]\nfluxx = 1\n",
