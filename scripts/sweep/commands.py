@@ -15,7 +15,7 @@ from sweep.meshes import make_mesh
 from sweep.plan import EXTENSIONS, Run, Sweep, SweepError, read_sweep, read_toml
 from sweep.runner import Runner, find_program
 from sweep.state import END, RESULT, Phase, checkpoints, read_state
-from sweep.status import states, status_text
+from sweep.status import disk_text, states, status_text
 from sweep.text import toml_key, toml_value
 
 SWEEP_LOCK = "sweep.lock"
@@ -32,6 +32,9 @@ def run(sweep: Sweep, arguments: Namespace) -> int:
     runner.listen()
     if arguments.only:  # one job of many: the runs' own locks are enough
         return run_some(runner, [sweep.find(name) for name in arguments.only])
+    told = disk_text(states(sweep))
+    if told:
+        print(told, flush=True)
     try:
         with exclusive(sweep):
             runner.run_all(sweep.runs)

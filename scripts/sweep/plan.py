@@ -59,6 +59,13 @@ class Run:
         content = case_content(self.case)
         return self.case.suffix.lower() in DESIGNS or (isinstance(content, dict) and ("body" in content or "surface" in content))
 
+    @property
+    def volume(self) -> bool | None:
+        """Is flow.vtkhdf to be written? None where neither the case nor the sweep file speaks of it."""
+        case = case_content(self.case)
+        own = case.get("output", {}).get("flow") if isinstance(case, dict) else None
+        return self.settings.get("output.flow", own)
+
     def identity(self) -> dict:
         """What decides the numbers that come out: a result counts only for the identity it was computed with."""
         case = case_content(self.case)

@@ -13,9 +13,9 @@ from pathlib import Path
 
 from sweep.lock import Locked, locked
 from sweep.meshes import make_mesh, mesh_file
-from sweep.plan import Run, SweepError, case_content
+from sweep.plan import Run, SweepError
 from sweep.state import END, LOCK, LOG, PROGRESS, RECORD, RESULT, Phase, State
-from sweep.state import checkpoints, progress, read_json, reason, state_at_rest, write_json
+from sweep.state import checkpoints, progress, read_json, reason, remove_checkpoints, state_at_rest, write_json
 from sweep.text import duration
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -40,12 +40,6 @@ def toml_text(value: object) -> str:
     if isinstance(value, list):
         return "[" + ", ".join(toml_text(item) for item in value) + "]"
     return str(value)
-
-
-def asks_for_volume(run: Run) -> bool:
-    """A flow.vtkhdf of every run fills a disk: it is written where the case or the sweep file says so."""
-    case = case_content(run.case)
-    return "output.flow" in run.settings or (isinstance(case, dict) and "flow" in case.get("output", {}))
 
 
 class Runner:
@@ -82,8 +76,7 @@ class Runner:
                     self.attempt(run, state.phase is Phase.INTERRUPTED, lock)
                     state = state_at_rest(run)
                     if state.phase is Phase.DONE and not run.is_motion:  # only a motion can be extended
-                        for file in checkpoints(run):
-                            file.unlink()
+                        remove_checkpoints(run)
         except OSError as error:
             state = State(Phase.FAILED, str(error))
         shown = state.detail + (f", {duration(state.seconds)}" if state.seconds is not None else "")
@@ -121,7 +114,7 @@ class Runner:
     def command(self, run: Run, case: Path) -> list[str]:
         mesh = mesh_file(run)
         settings = run.settings | ({"mesh.file": str(mesh)} if mesh else {})
-        if not asks_for_volume(run):
+        if run.volume is None:  # a flow.vtkhdf of every run fills a disk
             settings |= {"output.flow": False}
         command = [str(self.program), run.verb, str(case), "--out", str(run.folder), "--overwrite"]
         command += [word for key, value in settings.items() for word in ("--set", f"{key}={toml_text(value)}")]

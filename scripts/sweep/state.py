@@ -133,6 +133,12 @@ def checkpoints(run: Run) -> list[Path]:
     return sorted(run.folder.glob("checkpoint_*.vtkhdf"))
 
 
+def remove_checkpoints(run: Run) -> None:
+    """Also those of its coarser meshes."""
+    for file in (*checkpoints(run), *run.folder.glob("mesh_*/checkpoint_*.vtkhdf")):
+        file.unlink()
+
+
 def read_state(run: Run, result: dict | None = None) -> State:
     """As the files in its folder have it; `result`: what is in its result.json, where that has been read."""
     if is_locked(f"{run.folder}/{LOCK}"):
