@@ -46,6 +46,9 @@ description panels turn, each combination in a mesh of its own:
   mach = {from = 1.5, to = 3, step = 0.5}
   deflection.pitch = [0, 5]
 
+A run leaves its volume, flow.vtkhdf, only where the case or the sweep file sets "output.flow"; checkpoints of linear solves go when these
+are done.
+
 Exit codes: 0 every run is done, 1 some failed or an error, 2 wrong command line, 3 interrupted with work left, 5 every run came to
 its end, but some are not converged.
 Needs Debian's python3-numpy, python3-h5py and python3-matplotlib (hence /usr/bin/python3).

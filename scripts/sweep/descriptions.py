@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import subprocess
 import sys
+from functools import lru_cache
 from pathlib import Path
 
 from sweep.errors import SweepError
@@ -52,9 +53,18 @@ def turned(run: Run, name: str, fins: dict, turn: float | list[float]) -> list[f
 def meshed(run: Run) -> Path:
     """The case file of the kept mesh of a description, made now unless it is there. Raises SweepError."""
     description = deflected(run)
-    words = [sys.executable, "-B", str(MESH), str(description), "--kept", "--level", run.mesh or "coarse", "--at-mach", repr(run.mach)]
-    if run.mesh_mach:
-        words += ["--mach", ":".join(f"{mach:g}" for mach in run.mesh_mach)]
+    inside = run.mesh_mach and run.mesh_mach[0] <= run.mach <= run.mesh_mach[1]
+    return kept(description, description.stat().st_mtime_ns, run.mesh or "coarse", None if inside else run.mach, run.mesh_mach)
+
+
+@lru_cache(maxsize=1024)
+def kept(description: Path, time: int, level: str, mach: float | None, mesh_mach: tuple[float, float] | None) -> Path:
+    """Asked once for all runs that share a mesh; `mach`: that of a run, where its mesh is not known to be for it."""
+    words = [sys.executable, "-B", str(MESH), str(description), "--kept", "--level", level]
+    if mach is not None:
+        words += ["--at-mach", repr(mach)]
+    if mesh_mach:
+        words += ["--mach", ":".join(f"{end:g}" for end in mesh_mach)]
     done = subprocess.run(words, capture_output=True, text=True)
     if done.returncode != 0:
         said = [line for line in done.stderr.splitlines() if "error:" in line] or done.stderr.strip().splitlines() or ["no reason given"]

@@ -160,6 +160,7 @@ def force_table(results: Results) -> Table:
         columns,
         rows,
         [".4g", ".4g", ".5f", ".5f", ".5f", "g", ""],
+        hidden={5},
     )
 
 
