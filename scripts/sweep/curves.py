@@ -78,6 +78,7 @@ STATIC = (
     coefficient("Cn", "$C_n$", "Yawing moment"),
     coefficient("Cl", "$C_l$", "Rolling moment"),
 )
+ASIDE = tuple(curve for curve in STATIC if curve.name in ("CY", "Cn", "Cl", "CN", "Cm", "CA"))
 PITCH = (
     derivative("CN_alpha", r"$C_{N\alpha}$", "Normal force"),
     derivative("Cm_alpha", r"$C_{m\alpha}$", "Static moment"),
@@ -112,15 +113,15 @@ class Family:
     """Panels over one variable with a line for each value of another, and a dash for each series."""
 
     points: list[Point]
-    across: str  # "alpha" or "mach": along the axis
+    across: str  # "alpha", "beta" or "mach": along the axis
     folder: Path
 
     @property
     def other(self) -> str:
-        return "mach" if self.across == "alpha" else "alpha"
+        return "alpha" if self.across == "mach" else "mach"
 
     def of(self, point: Point, name: str) -> float:
-        return point.run.mach if name == "mach" else point.alpha
+        return {"mach": point.run.mach, "alpha": point.alpha, "beta": point.beta}[name]
 
     @property
     def values(self) -> list[float]:
@@ -153,7 +154,8 @@ class Family:
         found = [item for item in found if math.isfinite(item[1])]
         if len({self.of(point, self.across) for point, *_ in found}) < 2 or max(abs(value) for _, value, _ in found) < 1e-6:
             return None
-        figure, axes = panel("angle of attack α, deg" if self.across == "alpha" else "Mach number", "")
+        names = {"alpha": "angle of attack α, deg", "beta": "sideslip β, deg", "mach": "Mach number"}
+        figure, axes = panel(names[self.across], "")
         for number, series in enumerate(self.series):
             for value in few(self.values):
                 line = sorted(
@@ -178,8 +180,11 @@ class Family:
             axes.plot(*zip(*bad), "X", color=BAD, ms=8, mec="white", zorder=5)
 
 
-def families(points: list[Point], folder: Path) -> tuple[Family, Family]:
-    """Against alpha and against Mach number: undeflected points at the least sideslip, without mirror images."""
-    least = min((abs(point.beta) for point in points), default=0.0)
-    own = [point for point in points if point.coefficients and not point.image and not point.is_deflected and abs(point.beta) == least]
-    return Family(own, "alpha", folder), Family(own, "mach", folder)
+def families(points: list[Point], folder: Path) -> tuple[Family, Family, Family]:
+    """Against alpha, against Mach number, and against beta: undeflected points without mirror images, the first two at the least
+    sideslip, the last at the least incidence."""
+    own = [point for point in points if point.coefficients and not point.image and not point.is_deflected]
+    alpha, beta = (min((abs(getattr(point, name)) for point in own), default=0.0) for name in ("alpha", "beta"))
+    ahead = [point for point in own if abs(point.beta) == beta]
+    aside = [point for point in own if abs(point.alpha) == alpha]
+    return Family(ahead, "alpha", folder), Family(ahead, "mach", folder), Family(aside, "beta", folder)

@@ -35,6 +35,7 @@ def write_report(sweep: Sweep, program: Path) -> Path:
             ("Not done", unfinished(results)),
             ("Beside the paper", beside_the_paper(results, folder)),
             ("Against angle of attack", against_alpha(results, folder)),
+            ("Against sideslip", against_beta(results, folder)),
             ("Against Mach number", against_mach(results, folder)),
             ("Controls", deflected(results, folder)),
             ("Motion", moving),
@@ -143,13 +144,19 @@ BARS = "Bars are the uncertainty that the program gives for each derivative, a h
 
 
 def against_alpha(results: Results, folder: Path) -> str:
-    family, _ = curves.families(results.points, folder)
+    family, _, _ = curves.families(results.points, folder)
     drawn = page.grid(family.pictures(curves.STATIC))
     return page.legend(family.legend()) + drawn if drawn else ""
 
 
+def against_beta(results: Results, folder: Path) -> str:
+    _, _, family = curves.families(results.points, folder)
+    drawn = page.grid(family.pictures(curves.ASIDE))
+    return page.legend(family.legend()) + drawn if drawn else ""
+
+
 def over_mach(results: Results, folder: Path) -> str:
-    _, family = curves.families(results.points, folder)
+    _, family, _ = curves.families(results.points, folder)
     pitch, side = page.grid(family.pictures(curves.PITCH)), page.grid(family.pictures(curves.SIDE))
     if not pitch:
         return ""

@@ -10,9 +10,12 @@ from html.parser import HTMLParser
 
 from stub_runs import finish
 from test_table import model
-from workspace import SCRIPTS, Workspace
+from workspace import HEAD, SCRIPTS, Workspace
 
 from sweep.plan import read_sweep
+
+
+HEAD_ALONE = HEAD.replace("alpha = 1.5\n", "")
 
 
 class References(HTMLParser):
@@ -74,23 +77,25 @@ class Report(Workspace):
     def test_many_conditions_of_a_full_model(self) -> None:
         """Lines over both variables with one legend, the side, motion; what failed and what is not converged before everything."""
         mass = "[[mass]]\nmass = 20\ninertia = [0.05, 6, 6]\ncenter = 0.5\n"
-        self.write(mass + "[[runs]]\nmach = {from = 1.2, to = 3, count = 10}\nalpha = [0, 4]\n")
+        self.write(mass + "[[runs]]\nmach = {from = 1.2, to = 3, count = 10}\nalpha = [0, 4]\n[[runs]]\nmach = 2\nbeta = [2, 4]\n", HEAD_ALONE)
         runs = read_sweep(self.file).runs
         ends = {runs[3].name: "failed", runs[5].name: "not_converged"}
         finish(runs, model, lambda run: ends.get(run.name, "converged"))
         self.sweep("report")
         text = (self.folder / "runs" / "report.html").read_text()
         self.refers_to_nothing_outside(text)
-        places = [text.index(words) for words in (f"{runs[3].name}: no such mesh", f"{runs[5].name}: the steady march", "static margin", "<h2")]
+        first = (f"{runs[3].name}: no such mesh", f"{runs[5].name}: the steady march", "static margin", "<h2")
+        places = [text.index(words) for words in first]
         self.assertEqual(places, sorted(places))
-        for name in ("alpha_CN", "alpha_x_cp", "mach_margin", "mach_damping", "mach_Cn_beta", "mach_Cl_p", "convergence_steady"):
+        for name in ("alpha_CN", "alpha_x_cp", "mach_margin", "mach_damping", "mach_Cn_beta", "mach_Cl_p", "beta_CY"):
             self.assertTrue((self.folder / "runs" / "report" / f"{name}.svg").exists(), name)
+        self.assertTrue((self.folder / "runs" / "report" / "convergence_steady.svg").exists())
         self.assertFalse((self.folder / "runs" / "report" / "alpha_CY.svg").exists())  # there is no sideslip
-        # A colour for each of eight Mach numbers of ten, and for each angle; and the mark, in both.
-        self.assertEqual(text.count('class="legend"'), 2)
-        self.assertEqual(len(re.findall(r"Mach [\d.]+</span>", text)), 8)
+        # A colour for each of eight Mach numbers of ten, over both angles, and for each angle over Mach number; and the mark, in all.
+        self.assertEqual(text.count('class="legend"'), 3)
+        self.assertEqual(len(re.findall(r"Mach [\d.]+</span>", text)), 16)
         self.assertEqual(len(re.findall(r"α = \d°</span>", text)), 2)
-        self.assertEqual(text.count("not converged</span>"), 2)
+        self.assertEqual(text.count("not converged</span>"), 3)
         self.assertIn("a half width: solver and mesh", text)
         # Value and half width in one cell: CN_alpha = 7 (1 - 0.3) / 1.2 and 1 % of it.
         self.assertIn("<td>4.083 ± 0.04</td>", text)
