@@ -50,7 +50,7 @@ BODIES = {
     "finner": Body("basic_finner/derivatives.toml", ("basic_finner/mesh.py", "--size", "0.2"), (1.58, 1.75, 2.1, 2.5, 3.5)),
     "wing": Body("delta_wing/wing.toml", ("gmsh",), (1.5, 2.0, 2.5, 3.0)),
 }
-SCHEMES = ({}, {"steady.scheme": "lu_sgs"}, {"steady.krylov_directions": 20}, {"steady.sweeps": 2}, {"derivatives.method": "march"})
+SCHEMES = ({}, {"steady.scheme": "lu_sgs"}, {"steady.krylov_directions": 0}, {"steady.sweeps": 2}, {"derivatives.method": "march"})
 COLUMNS = ("number", "defect", "body", "freestream.mach", "freestream.alpha", "space.flux", "space.limiter", "space.gradient",
            "steady.scheme", "steady.krylov_directions", "steady.sweeps", "derivatives.method", "entry", "value", "eight_decades", "difference",
            "error", "printed", "doubt", "verdict")  # fmt: skip
