@@ -184,9 +184,11 @@ def deflected(results: Results, folder: Path) -> str:
                 rows.append([control.name, control.degrees[i], control.mach[j], control.alpha[k], *changes])
         trim += [[control.name, *values] for values in trim_angles(control, grid)]
     columns = ["control", "deflection, deg", "Mach", "alpha, deg"]
-    changed = tables.Table("controls", "Changes by controls, the others at rest", [*columns, *names], rows, ["", *["+.4g"] * 9])
+    idle = {4 + index for index in range(len(names)) if not any(row[4 + index] for row in rows)}
+    forms = ["", *[".4g"] * 3, *["+.4g"] * len(names)]
+    changed = tables.Table("controls", "Changes by controls, the others at rest", [*columns, *names], rows, forms, hidden=idle)
     held = "Trim: the incidence without a pitching moment, between those computed"
-    trimmed = tables.Table("trim", held, [*columns[:3], "alpha, deg", "CN"], trim, ["", *[".4g"] * 4])
+    trimmed = tables.Table("trim", held, [*columns[:3], "alpha, deg", "CN"], trim, ["", ".4g", ".4g", ".3f", ".4f"])
     left = "".join(f'<p class="note">Left out: {escape(line)}.</p>' for line in left_out)
     return write(changed, folder) + write(trimmed, folder) + left
 
@@ -199,7 +201,8 @@ def motion(results: Results) -> tuple[str, str]:
     head, *cells = dynamics.shown(rows)
     cells = [[row["state"], *(cell.replace("-", "−") for cell in line)] for row, line in zip(rows, cells)]
     name = "Small disturbances of a straight path without thrust; margins in lengths; the sum damps where it is below the column beside it"
-    table = tables.Table("dynamics", name, ["state", *head], cells, [""] + ["n"] * len(head))
+    unknown = {1 + index for index in range(len(head)) if all(line[1 + index] == "−" for line in cells)}
+    table = tables.Table("dynamics", name, ["state", *head], cells, [""] + ["n"] * len(head), hidden=unknown)
     lines = list(dict.fromkeys(line for row in rows for line in dynamics.warnings(row)))
     return page.table(table), page.notices("Motion", lines)
 
