@@ -74,7 +74,7 @@ class Point:
 def read_points(sweep: Sweep) -> list[Point]:
     """A point a run, in their order, and then the mirror images that the symmetry of the sweep tells."""
     points = list(map(point_of, sweep.runs))
-    return points + list(images(points, sweep.symmetry))
+    return points + (list(images(points, sweep.symmetry)) if sweep.symmetry else [])
 
 
 def point_of(run: Run) -> Point:

@@ -7,6 +7,7 @@ import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 from html import escape
+from pathlib import Path
 
 from sweep.picture import Picture
 from sweep.tables import Table
@@ -47,6 +48,7 @@ tbody tr:hover td { background: #eef4fb; }
 .legend { display: flex; flex-wrap: wrap; gap: 0.3rem 1.1rem; margin: 0 0 0.8rem; font-size: 0.88rem; }
 .legend span { display: inline-flex; align-items: center; gap: 0.4rem; white-space: nowrap; }
 .legend i { width: 1.7rem; border-top: 3px solid; } .legend i.cross { width: auto; border: 0; font: bold 1rem sans-serif; }
+.scale img { display: block; width: min(100%, 640px); margin: 0 auto 0.8rem; }
 .grid.broad { grid-template-columns: repeat(auto-fill, minmax(min(100%, 540px), 1fr)); }
 figure { margin: 0; border: 1px solid var(--line); border-radius: 8px; padding: 0.5rem; background: white; }
 figure img { width: 100%; height: auto; display: block; }
@@ -87,11 +89,19 @@ def legend(keys: Sequence[Key]) -> str:
 TYPES = {".svg": "image/svg+xml", ".png": "image/png"}
 
 
+def image(file: Path, text: str) -> str:
+    data = base64.b64encode(file.read_bytes()).decode()
+    return f'<img alt="{escape(text)}" src="data:{TYPES[file.suffix]};base64,{data}">'
+
+
+def scale(file: Path, text: str) -> str:
+    """A bar of colours for the pictures below it."""
+    return f'<div class="scale">{image(file, text)}</div>'
+
+
 def picture(item: Picture) -> str:
-    data = base64.b64encode(item.file.read_bytes()).decode()
     caption = f" — {escape(item.caption)}" if item.caption else ""
-    image = f'<img alt="{escape(item.title)}" src="data:{TYPES[item.file.suffix]};base64,{data}">'
-    return f"<figure>{image}<figcaption><b>{escape(item.title)}</b>{caption}</figcaption></figure>"
+    return f"<figure>{image(item.file, item.title)}<figcaption><b>{escape(item.title)}</b>{caption}</figcaption></figure>"
 
 
 def grid(items: Sequence[Picture], broad: bool = False) -> str:

@@ -41,7 +41,7 @@ def write_report(sweep: Sweep, program: Path) -> Path:
             ("Motion", moving),
             ("Loops", loops(results, folder)),
             ("Derivatives", derivatives(results, folder)),
-            ("Surface pressure", page.grid(surface.pressure_pictures(results, folder), broad=True)),
+            ("Surface pressure", pressures(results, folder)),
             ("Convergence", page.grid(figures.convergence_figures(results, folder))),
             ("Meshes", page.grid(surface.mesh_pictures(results, folder))),
             ("Cost", write(tables.cost_table(results), folder)),
@@ -229,6 +229,11 @@ def loops(results: Results, folder: Path) -> str:
 def derivatives(results: Results, folder: Path) -> str:
     shown = (tables.derivative_table(results), tables.side_table(results), tables.force_table(results))
     return "".join(write(table, folder) for table in shown if table.rows)
+
+
+def pressures(results: Results, folder: Path) -> str:
+    scale, pictures = surface.pressure_pictures(results, folder)
+    return page.scale(scale, "colours of the pressure coefficient") + page.grid(pictures, broad=True) if scale else ""
 
 
 def unfinished(results: Results) -> str:

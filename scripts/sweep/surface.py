@@ -18,6 +18,7 @@ from sweep.results import Entry, Results
 
 FILE = "surface.vtkhdf"
 WIDTH = 9.0
+COLORS = "RdBu_r"
 MOST = 8  # pictures of the pressure: each is some 100 kB of the page
 
 
@@ -73,12 +74,14 @@ def draw(axes: plt.Axes, triangles: np.ndarray, **style: object) -> PolyCollecti
     return collection
 
 
-def pressure_pictures(results: Results, folder: Path) -> list[Picture]:
-    """One a case, of some of them: the method does not matter to a steady flow, so the first of each Mach number, angles and mesh."""
+def pressure_pictures(results: Results, folder: Path) -> tuple[Path | None, list[Picture]]:
+    """The bar of colours of them all, and one a case, of some: the method does not matter to a steady flow, so the first of each Mach
+    number, angles, deflections and mesh."""
     cases: dict[tuple, Entry] = {}
     for entry in sorted(results.entries, key=lambda entry: entry.run.is_motion):
         if (entry.run.folder / FILE).exists():
-            cases.setdefault((entry.mach, entry.run.alpha, entry.run.beta, entry.run.mesh), entry)
+            run = entry.run
+            cases.setdefault((entry.mach, run.alpha, run.beta, tuple(run.deflections.values()), run.mesh), entry)
     chosen = sorted(cases)
     if len(chosen) > MOST:
         chosen = [chosen[round(i * (len(chosen) - 1) / (MOST - 1))] for i in range(MOST)]
@@ -89,42 +92,50 @@ def pressure_pictures(results: Results, folder: Path) -> list[Picture]:
         surface = read(entry)
         values[key] = surface.cp[surface.part(body_patches(entry))]
     if not values:
-        return []
+        return None, []
     joined = np.concatenate(list(values.values()))
     limits = np.percentile(joined, 0.5), np.percentile(joined, 99.5)
-    return [draw_pressure(entry, read(entry), limits, folder) for _, entry in sorted(cases.items(), key=lambda pair: pair[0])]
+    norm = matplotlib.colors.TwoSlopeNorm(0.0, min(limits[0], -1e-6), max(limits[1], 1e-6))
+    return draw_scale(norm, folder), [draw_pressure(entry, read(entry), norm, folder) for entry in cases.values()]
 
 
-def draw_pressure(entry: Entry, surface: Surface, limits: tuple[float, float], folder: Path) -> Picture:
-    """Side view coloured by Cp, on the scale of all cases together."""
+def draw_scale(norm: matplotlib.colors.Normalize, folder: Path) -> Path:
+    figure, axes = plt.subplots(figsize=(WIDTH, 0.7), layout="constrained")
+    bar = figure.colorbar(matplotlib.cm.ScalarMappable(norm, COLORS), cax=axes, orientation="horizontal", extend="both")
+    bar.set_label("Cp", labelpad=1)
+    file = folder / "pressure_scale.svg"
+    figure.savefig(file, metadata={"Date": None})
+    plt.close(figure)
+    return file
+
+
+def draw_pressure(entry: Entry, surface: Surface, norm: matplotlib.colors.Normalize, folder: Path) -> Picture:
+    """Side view coloured by Cp."""
     chosen = seen_from_port(surface, surface.part(body_patches(entry)))
     triangles = surface.triangles[chosen]
     extent = np.ptp(triangles.reshape(-1, 3), axis=0)
     height = np.clip(WIDTH * extent[2] / extent[0], 1.2, 8.0)
-    figure, axes = plt.subplots(figsize=(WIDTH, height + 0.9), layout="constrained")
-    norm = matplotlib.colors.TwoSlopeNorm(0.0, min(limits[0], -1e-6), max(limits[1], 1e-6))
+    figure, axes = plt.subplots(figsize=(WIDTH, height), layout="constrained")
     # Edges in the colour of the face hide the hairlines between the faces.
-    drawn = draw(
-        axes, triangles, array=surface.cp[chosen], cmap="RdBu_r", norm=norm, edgecolor="face", linewidth=0.3, rasterized=True
-    )
+    draw(axes, triangles, array=surface.cp[chosen], cmap=COLORS, norm=norm, edgecolor="face", linewidth=0.3, rasterized=True)
     axes.set_axis_off()
-    bar = figure.colorbar(drawn, ax=axes, orientation="horizontal", shrink=0.55, aspect=45, pad=0.02)
-    bar.set_label("Cp", labelpad=1)
     name = f"pressure_{entry.run.name}"
     figure.savefig(folder / f"{name}.png", dpi=120)
     plt.close(figure)
-    title = f"Mach {entry.mach:g}, α = {entry.run.alpha:g}°"
+    run = entry.run
+    angles = [f"α = {run.alpha:.4g}°"] + [f"β = {run.beta:.4g}°"] * bool(run.beta)
+    title = ", ".join([f"Mach {entry.mach:.4g}", *angles, *(f"{name} {value:g}°" for name, value in run.deflections.items() if value)])
     return Picture(folder / f"{name}.png", title, f"{entry.result['mesh']['cells']:,} cells; from {entry.run.name}")
 
 
 def mesh_pictures(results: Results, folder: Path) -> list[Picture]:
-    """The surface and the plane of symmetry of every mesh."""
+    """The surface and the plane of symmetry of every mesh, of the first MOST / 2."""
     meshes: dict[str, Entry] = {}
     for entry in results.entries:
         if (entry.run.folder / FILE).exists():
             meshes.setdefault(entry.result["mesh"]["hash"], entry)
     pictures = []
-    for entry in meshes.values():
+    for entry in list(meshes.values())[: MOST // 2]:
         surface = Surface.read(entry.run.folder / FILE, entry.result["reference"]["length"])
         mesh = entry.result["mesh"]
         label = f"{Path(mesh['file']).stem}: {mesh['cells']:,} tetrahedra, {mesh['points']:,} points"
