@@ -100,17 +100,22 @@ class Results:
         return [entry for entry in self.entries if entry.has_derivatives]
 
     @cached_property
+    def place(self) -> dict[str, int]:
+        """Of a run among those with derivatives."""
+        return {entry.run.name: index for index, entry in enumerate(self.with_derivatives)}
+
+    @cached_property
     def derived(self) -> Runs:
         """What the program says about those with derivatives, in their order. Raises SweepError."""
         return Runs(self.program, [entry.run.folder / RESULT for entry in self.with_derivatives])
 
     def about(self, entry: Entry, center: float) -> Derivatives:
         """Of an entry with derivatives, about a centre in reference lengths from the nose."""
-        return self.derived.about(center)[self.with_derivatives.index(entry)]
+        return self.derived.about(center)[self.place[entry.run.name]]
 
     def here(self, entry: Entry) -> Derivatives:
         """The same about the centre of the run."""
-        return self.derived.here[self.with_derivatives.index(entry)]
+        return self.derived.here[self.place[entry.run.name]]
 
     @cached_property
     def uncertainty(self) -> str:
@@ -144,7 +149,7 @@ class Results:
             groups.setdefault(entry.series, []).append(entry)
         best = max(groups.values(), key=rank)
         static = column([self.published.paper[entry.mach] for entry in best], "static_field")
-        return fitted_center(self.derived, [self.with_derivatives.index(entry) for entry in best], static)
+        return fitted_center(self.derived, [self.place[entry.run.name] for entry in best], static)
 
 
 def finite(value: float | None) -> bool:
