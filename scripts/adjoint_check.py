@@ -26,7 +26,7 @@ CASES = ROOT / "cases"
 @dataclass(frozen=True)
 class Subject:
     case: str  # below cases/
-    mesh: tuple[str, ...]  # its generator and arguments, without the output
+    mesh: tuple[str, ...]  # its generator and arguments in the root, without the output
     loads: tuple[str, ...]
     variables: tuple[str, ...]
     settings: tuple[str, ...] = ()
@@ -34,11 +34,12 @@ class Subject:
 
 LONGITUDINAL = (("CA", "CN", "Cm"), ("alpha", "q", "alphadot"))
 SUBJECTS = {
-    "wedge": Subject("wedge/derivatives.toml", ("wedge/mesh.py", "--level", "tiny"), *LONGITUDINAL),
-    "cone": Subject("sharp_cone/derivatives.toml", ("sharp_cone/mesh.py", "--size", "0.07"), *LONGITUDINAL),
-    "full cone": Subject("sharp_cone/full.toml", ("sharp_cone/mesh.py", "--model", "full", "--size", "0.11"),
+    "wedge": Subject("wedge/derivatives.toml", ("cases/wedge/mesh.py", "--level", "tiny"), *LONGITUDINAL),
+    "cone": Subject("sharp_cone/derivatives.toml", ("cases/sharp_cone/mesh.py", "--size", "0.07"), *LONGITUDINAL),
+    "full cone": Subject("sharp_cone/full.toml", ("cases/sharp_cone/mesh.py", "--model", "full", "--size", "0.11"),
                          ("CA", "CN", "Cm", "CY", "Cn", "Cl"), ("alpha", "q", "alphadot", "beta", "p", "r", "betadot")),
-    "finner": Subject("basic_finner/derivatives.toml", ("basic_finner/mesh.py", "--level", "coarse"), *LONGITUDINAL),
+    "finner": Subject("basic_finner/derivatives.toml", ("scripts/mesh.py", "cases/basic_finner/missile.toml", "--level", "coarse"),
+                      *LONGITUDINAL),
 }
 
 
@@ -98,7 +99,7 @@ def main() -> int:
     for name, subject in SUBJECTS.items():
         mesh = (arguments.out / f"{name.replace(' ', '_')}.msh").resolve()
         if not mesh.exists():
-            subprocess.run(["/usr/bin/python3", str(CASES / subject.mesh[0]), *subject.mesh[1:], "-o", str(mesh)], check=True,
+            subprocess.run(["/usr/bin/python3", *subject.mesh, "-o", str(mesh)], check=True, cwd=ROOT,
                            stdout=subprocess.DEVNULL)
         worst = max(worst, compare(name, arguments.program, mesh, arguments.out))
     ratios = price("finner", arguments.program, (arguments.out / "finner.msh").resolve(), arguments.out, arguments.repeats)

@@ -9,5 +9,5 @@ cd "$(dirname "$0")/.."
 cmake --preset bench
 cmake --build --preset bench --parallel "$(nproc)" --target alphadot alphadot_bench
 mesh=cases/basic_finner/coarse.msh
-[[ -e $mesh ]] || /usr/bin/python3 cases/basic_finner/mesh.py --level coarse --output $mesh
+[[ -e $mesh ]] || /usr/bin/python3 scripts/mesh.py cases/basic_finner/missile.toml --level coarse --output $mesh
 /usr/bin/python3 scripts/bench.py "$@"

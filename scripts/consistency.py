@@ -40,14 +40,15 @@ SOLVER_NOISE = 1e-9
 @dataclass(frozen=True)
 class Body:
     case: str  # below cases/
-    make: tuple[str, ...]  # command of its mesh, without the output
+    make: tuple[str, ...]  # command of its mesh in the root, without the output
     machs: tuple[float, ...]
 
 
 BODIES = {
-    "wedge": Body("wedge/derivatives.toml", ("wedge/mesh.py", "--level", "tiny"), (1.5, 1.8, 2.0, 2.5, 3.5)),
-    "cone": Body("sharp_cone/derivatives.toml", ("sharp_cone/mesh.py", "--size", "0.11"), (1.58, 2.0, 2.5, 3.5, 5.0)),
-    "finner": Body("basic_finner/derivatives.toml", ("basic_finner/mesh.py", "--size", "0.2"), (1.58, 1.75, 2.1, 2.5, 3.5)),
+    "wedge": Body("wedge/derivatives.toml", ("cases/wedge/mesh.py", "--level", "tiny"), (1.5, 1.8, 2.0, 2.5, 3.5)),
+    "cone": Body("sharp_cone/derivatives.toml", ("cases/sharp_cone/mesh.py", "--size", "0.11"), (1.58, 2.0, 2.5, 3.5, 5.0)),
+    "finner": Body("basic_finner/derivatives.toml", ("scripts/mesh.py", "cases/basic_finner/missile.toml", "--cells", "12000"),
+                   (1.58, 1.75, 2.1, 2.5, 3.5)),
     "wing": Body("delta_wing/wing.toml", ("gmsh",), (1.5, 2.0, 2.5, 3.0)),
 }
 SCHEMES = ({}, {"steady.scheme": "lu_sgs"}, {"steady.krylov_directions": 0}, {"steady.sweeps": 2}, {"derivatives.method": "march"})
@@ -61,10 +62,10 @@ def mesh_of(name: str, folder: Path) -> Path:
     body, path = BODIES[name], folder / f"{name}.msh"
     if not path.exists():
         if body.make[0] == "gmsh":
-            line = ["gmsh", "-3", "-clscale", "2.4", "-format", "msh22", str(CASES / "delta_wing" / "wing.geo"), "-o", str(path)]
+            line = ["gmsh", "-3", "-clscale", "2.4", "-format", "msh22", str(CASES / "delta_wing" / "wing.geo"), "-o", str(path.resolve())]
         else:
-            line = ["/usr/bin/python3", str(CASES / body.make[0]), *body.make[1:], "-o", str(path)]
-        subprocess.run(line, check=True, capture_output=True)
+            line = ["/usr/bin/python3", *body.make, "-o", str(path.resolve())]
+        subprocess.run(line, check=True, capture_output=True, cwd=ROOT)
     return path
 
 

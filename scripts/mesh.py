@@ -77,7 +77,7 @@ def parse() -> argparse.Namespace:
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )  # fmt: skip
     parser.add_argument("description", type=Path, nargs="?", metavar="DESCRIPTION", help="missile.toml, a design of OpenRocket (.ork) or RASAero II (.CDX1), or a surface: STEP, IGES, BREP, STL, OBJ, .tri")
-    parser.add_argument("-o", "--output", type=Path, metavar="FOLDER", help="default: the description's name, here")
+    parser.add_argument("-o", "--output", type=Path, metavar="FOLDER", help="default: the description's name, here; FILE.msh or FILE.su2: the mesh alone")
     sizes = parser.add_mutually_exclusive_group()
     levels = ", ".join(f"{name} {cells:,}" for name, cells in LEVELS.items())
     sizes.add_argument(
@@ -97,6 +97,8 @@ def parse() -> argparse.Namespace:
         parser.error("give a description, or --keys")
     if len(arguments.level) > 3:
         parser.error("at most three levels: the mesh of the case and one or two coarser ones")
+    if arguments.output and arguments.output.suffix in (".msh", ".su2") and len(arguments.level) > 1:
+        parser.error(f"{arguments.output} holds one mesh: give one level, or a folder")
     return arguments
 
 

@@ -37,7 +37,7 @@ start_node "$folder/node"
 sinfo
 
 step "A sweep whose plunge is longer than the limit of its job, and the same without a limit"
-/usr/bin/python3 cases/basic_finner/mesh.py --level coarse --output "$folder/coarse.msh"
+/usr/bin/python3 scripts/mesh.py cases/basic_finner/missile.toml --level coarse --output "$folder/coarse.msh"
 cp cases/basic_finner/{derivatives,plunge}.toml "$folder"
 # So many steps that the plunge takes several minutes. Slurm may send its signal up to a minute earlier than it is told to.
 sweep() {

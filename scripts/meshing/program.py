@@ -7,6 +7,8 @@ import math
 import os
 import sys
 import time
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
 
@@ -26,6 +28,8 @@ from meshing.shape_file import SUFFIXES, read_shape
 from meshing.tetrahedra import MeshError
 from meshing.toml_file import DescriptionError
 
+FORMATS = {".msh": "4.1", ".su2": "su2"}  # of a mesh alone
+
 
 def main(arguments: argparse.Namespace) -> int:
     """The exit code; see mesh.py."""
@@ -36,7 +40,8 @@ def main(arguments: argparse.Namespace) -> int:
         if arguments.kept:
             keep(arguments, lambda asked, folder: write_all(read_for(asked), asked, folder))
         else:
-            write_all(read_for(arguments), arguments, arguments.output or Path(arguments.description.stem))
+            subject, output = read_for(arguments), arguments.output or Path(arguments.description.stem)
+            (write_mesh if output.suffix in FORMATS else write_all)(subject, arguments, output)
     except (MeshError, OSError) as error:
         for line in str(error).splitlines():
             print(f"alphadot mesh: error: {line}", file=sys.stderr)
@@ -78,6 +83,24 @@ def bare_shape(path: Path) -> Shape:
     return replace(shape, reference=reference, notes=(*shape.notes, note))
 
 
+def write_mesh(missile: Missile | Shape, arguments: argparse.Namespace, file: Path) -> None:
+    """The mesh alone, in the format that the end of the file's name says."""
+    with quiet_gmsh():
+        made = made_or_refused(missile, arguments.model, arguments.cells or levels(arguments.level, missile, arguments.model)[0][1])
+        write(made.mesh, file, FORMATS[file.suffix])
+    print("\n".join([f"{file}: {missile.title}, {made.model} model", *("  " + line for line in made.report)]))
+
+
+@contextmanager
+def quiet_gmsh() -> Iterator[None]:
+    gmsh.initialize(readConfigFiles=False)  # a user's settings would change the mesh
+    gmsh.option.setNumber("General.Terminal", 0)
+    try:
+        yield
+    finally:
+        gmsh.finalize()
+
+
 def write_all(missile: Missile | Shape, arguments: argparse.Namespace, folder: Path) -> None:
     """Makes and writes everything; each file appears under its name when it is complete."""
     folder.mkdir(parents=True, exist_ok=True)
@@ -85,9 +108,7 @@ def write_all(missile: Missile | Shape, arguments: argparse.Namespace, folder: P
     wanted = [("mesh", arguments.cells)] if arguments.cells else levels(arguments.level, missile, model)
     lines = [missile.title, *missile.notes]
     first: Made | None = None
-    gmsh.initialize(readConfigFiles=False)  # a user's settings would change the mesh
-    gmsh.option.setNumber("General.Terminal", 0)
-    try:
+    with quiet_gmsh():
         for name, cells in wanted:
             start = time.process_time()
             made = made_or_refused(missile, model, cells)
@@ -95,8 +116,6 @@ def write_all(missile: Missile | Shape, arguments: argparse.Namespace, folder: P
             write(made.mesh, folder / f"{name}.msh")
             lines += ["", f"{name}.msh: {made.model} model, {time.process_time() - start:.1f} s of processor"]
             lines += ["  " + line for line in made.report]
-    finally:
-        gmsh.finalize()
     files = [f"{name}.msh" for name, _ in wanted]
     put(folder / "case.toml", case_text(missile, first, files[0], files[1:], arguments.description.name))
     put(folder / "report.txt", "\n".join(lines) + "\n")

@@ -58,9 +58,12 @@ def meshed(run: Run) -> Path:
 
 
 @lru_cache(maxsize=1024)
-def kept(description: Path, time: int, level: str, mach: float | None, mesh_mach: tuple[float, float] | None) -> Path:
-    """Asked once for all runs that share a mesh; `mach`: that of a run, where its mesh is not known to be for it."""
+def kept(description: Path, time: int, level: str, mach: float | None, mesh_mach: tuple[float, float] | None, model: str = "") -> Path:
+    """Asked once for all runs that share a mesh; `mach`: that of a run, where its mesh is not known to be for it; `model`: half or full,
+    if not what the description's symmetry says."""
     words = [sys.executable, "-B", str(MESH), str(description), "--kept", "--level", level]
+    if model:
+        words += ["--model", model]
     if mach is not None:
         words += ["--at-mach", repr(mach)]
     if mesh_mach:

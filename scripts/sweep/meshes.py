@@ -1,4 +1,4 @@
-"""The meshes that a sweep needs, made by the mesh.py beside the case, or of a description."""
+"""The meshes that a sweep needs: of a description, of a level of the description that the case names, or made by the mesh.py beside it."""
 
 from __future__ import annotations
 
@@ -7,17 +7,25 @@ import subprocess
 import sys
 from pathlib import Path
 
-from sweep.descriptions import meshed
-from sweep.plan import Run, SweepError
+from sweep.descriptions import kept, meshed
+from sweep.plan import Run, SweepError, case_content
 
 
 def mesh_file(run: Run) -> Path | None:
-    """Where the mesh of the run is or will be; None: where the case says."""
-    if not run.mesh or run.is_described:
+    """Where the mesh of the run is or will be; None: where the case or a description says."""
+    if not run.mesh or run.is_described or _described_level(run):
         return None
     if Path(run.mesh).suffix:
         return (run.case.parent / run.mesh).resolve()
     return run.case.parent / f"{run.mesh}.msh"
+
+
+def mesh_settings(run: Run) -> dict[str, str]:
+    """The keys that give the case its mesh; none: it keeps its own."""
+    if _described_level(run):
+        return {"mesh.level": run.mesh}
+    file = mesh_file(run)
+    return {"mesh.file": str(file)} if file else {}
 
 
 def make_mesh(run: Run) -> Path:
@@ -27,6 +35,13 @@ def make_mesh(run: Run) -> Path:
     """
     if run.is_described:
         return meshed(run)
+    if description := _described_level(run):
+        model = run.settings.get("reference.model") or _table(run, "reference").get("model", "full")
+        try:
+            kept(description, description.stat().st_mtime_ns, run.mesh, run.mach, None, str(model))
+        except OSError as error:
+            raise SweepError(f"{description}: {error.strerror}") from None
+        return run.case
     file = mesh_file(run)
     if file is None or file.exists():
         return run.case
@@ -45,3 +60,16 @@ def make_mesh(run: Run) -> Path:
     finally:
         temporary.unlink(missing_ok=True)
     return run.case
+
+
+def _described_level(run: Run) -> Path | None:
+    """The description from which the case takes its mesh, where the run asks for a level of it."""
+    name = _table(run, "mesh").get("from")
+    return run.case.parent / name if run.mesh and not Path(run.mesh).suffix and isinstance(name, str) else None
+
+
+def _table(run: Run, name: str) -> dict:
+    """Of the case file; nothing where that is wrong: the program will say so."""
+    content = case_content(run.case)
+    table = content.get(name) if isinstance(content, dict) else None
+    return table if isinstance(table, dict) else {}

@@ -12,7 +12,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from sweep.lock import Locked, locked
-from sweep.meshes import make_mesh, mesh_file
+from sweep.meshes import make_mesh, mesh_settings
 from sweep.plan import Run, SweepError
 from sweep.state import END, LOCK, LOG, PROGRESS, RECORD, RESULT, Phase, State
 from sweep.state import checkpoints, progress, read_json, reason, remove_checkpoints, state_at_rest, write_json
@@ -112,8 +112,7 @@ class Runner:
         write_json(run.folder / END, end)
 
     def command(self, run: Run, case: Path) -> list[str]:
-        mesh = mesh_file(run)
-        settings = run.settings | ({"mesh.file": str(mesh)} if mesh else {})
+        settings = run.settings | mesh_settings(run)
         if run.volume is None:  # a flow.vtkhdf of every run fills a disk
             settings |= {"output.flow": False}
         command = [str(self.program), run.verb, str(case), "--out", str(run.folder), "--overwrite"]

@@ -64,6 +64,13 @@ class Meshes(unittest.TestCase):
         half = math.hypot(1.0, 0.04) + 0.5 * 0.04
         self.assertAlmostEqual(area(made.mesh, "fin_1"), half, delta=0.01)
         self.assertAlmostEqual(area(made.mesh, "fin_2"), 2.0 * half, delta=0.02)
+        # Off the fins and the tip the facets are those of a prism and of a pyramid, none tilted along the stream.
+        for name, low, high in (("body", 3.0, 6.65), ("nose", 1.2, 3.0)):
+            triangles = made.mesh.patches[name]
+            x = made.mesh.points[triangles, 0]
+            vectors = meshing.area_vectors(made.mesh.points, triangles[(x.min(axis=1) > low - 1e-6) & (x.max(axis=1) < high + 1e-6)])
+            self.assertGreater(len(vectors), 50)
+            self.assertLess(np.ptp(vectors[:, 0] / np.linalg.norm(vectors, axis=1)), 1e-6)
 
     def test_three_fins_have_a_half_and_a_full_model(self) -> None:
         text = BODY + FINS.replace("number = 4", "number = 3") + 'section = "flat"\nsweep = 30\ntip_chord = 0.5\n'
@@ -123,6 +130,13 @@ class Program(unittest.TestCase):
             mesh = meshing.read(self.folder / "missile" / "mesh.msh")
         self.assertEqual(set(case["boundary"]), set(mesh.patches))
         self.assertEqual({kind for kind in case["boundary"].values()}, {"wall", "jet", "symmetry", "farfield"})
+
+    def test_a_mesh_alone(self) -> None:
+        self.run_mesh("missile.toml", "--cells", "8000", "-o", "half.msh", code=0)
+        with mesher():
+            self.assertLess(abs(len(meshing.read(self.folder / "half.msh").tets) / 8000 - 1.0), 0.15)
+        self.assertEqual(sorted(file.name for file in self.folder.iterdir()), ["half.msh", "missile.toml"])
+        self.assertIn("half.msh holds one mesh", self.run_mesh("missile.toml", "--level", "tiny", "coarse", "-o", "half.msh", code=2))
 
     def test_help_needs_python_alone(self) -> None:
         bare = [sys.executable, "-S", "-B", str(ROOT / "scripts" / "mesh.py")]  # -S: without the packages of Debian

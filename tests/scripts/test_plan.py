@@ -7,7 +7,7 @@ import unittest
 
 from workspace import HEAD, SCRIPTS, Workspace
 
-from sweep.meshes import mesh_file
+from sweep.meshes import mesh_settings
 from sweep.plan import SweepError, read_sweep
 from sweep.runner import Runner
 
@@ -37,11 +37,18 @@ class Plan(Workspace):
         self.assertIn(f"-n 3 {self.folder}/alphadot run {self.folder}/good.toml --out {self.folder}/runs/{run.name}", command)
         for setting in ("freestream.mach=2.5", "freestream.alpha=1.5", "motion.kind=plunge", "unsteady.cycles=2.5"):
             self.assertIn(f"--set {setting}", command)
-        self.assertEqual(mesh_file(run), self.folder / "coarse.msh")
+        self.assertEqual(mesh_settings(run), {"mesh.file": f"{self.folder}/coarse.msh"})
+
+    def test_level_of_a_description(self) -> None:
+        self.write('[[runs]]\nmach = 2.5\nmesh = ["coarse", "other.msh"]\n')
+        (self.folder / "good.toml").write_text('[mesh]\nfrom = "missile.toml"\n')
+        level, file = read_sweep(self.file).runs
+        self.assertEqual(mesh_settings(level), {"mesh.level": "coarse"})
+        self.assertEqual(mesh_settings(file), {"mesh.file": f"{self.folder.resolve()}/other.msh"})
 
     def test_case_without_mesh_level_keeps_its_own(self) -> None:
         self.write("[[runs]]\nmach = 2\n")
-        self.assertIsNone(mesh_file(read_sweep(self.file).runs[0]))
+        self.assertEqual(mesh_settings(read_sweep(self.file).runs[0]), {})
 
     def test_label_tells_runs_apart(self) -> None:
         blocks = '[[runs]]\nmach = 2\n\n[[runs]]\nmach = 2\nset."space.order" = 1\n'
