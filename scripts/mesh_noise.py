@@ -5,7 +5,7 @@
 
 Sizes of cells go from SPREAD percent below to as much above that of the middle mesh, at equal steps. FOLDER/noise.csv grows by a row a
 mesh and Mach number; what stands there is not computed again. Then prints mean and standard deviation over the meshes of each derivative,
-and what the standard deviation is about a line through the sizes, which leaves the error of discretisation out.
+and what the standard deviation is about a line through the sizes, which leaves the error of discretisation out, and seconds of processor.
 """
 
 from __future__ import annotations
@@ -13,6 +13,7 @@ from __future__ import annotations
 import argparse
 import csv
 import json
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -21,7 +22,7 @@ import numpy as np
 
 ROOT = Path(__file__).resolve().parents[1]
 DERIVATIVES = ("CN_alpha", "Cm_alpha", "CN_q", "Cm_q", "CN_alphadot", "Cm_alphadot")
-COLUMNS = ("mesh", "cells", "mach", "status", *DERIVATIVES)
+COLUMNS = ("mesh", "cells", "mach", "status", "meshing_s", "solving_s", *DERIVATIVES)
 
 
 def parse() -> argparse.Namespace:
@@ -63,6 +64,11 @@ def mesh_of(arguments: argparse.Namespace, cells: int) -> Path:
     return folder / "case.toml"
 
 
+def meshing_seconds(case: Path) -> float:
+    """Of processor, as the report beside the case has it."""
+    return float(re.search(r"model, ([0-9.]+) s of processor", (case.parent / "report.txt").read_text())[1])
+
+
 def run(arguments: argparse.Namespace, case: Path, mach: float) -> dict:
     """The result of the linear solves at a Mach number."""
     out = case.parent / f"mach_{mach:g}"
@@ -86,6 +92,8 @@ def summary(rows: list[dict[str, str]]) -> str:
             rest = values - np.polyval(np.polyfit(size, values, 1), size)
             about = np.sqrt(np.sum(rest**2) / (len(here) - 2))
             lines.append(f"{mach:6.2f}{len(here):8d}{cells.mean():11.0f}  {name:14s}{values.mean():12.4f}{values.std(ddof=1):10.4f}{about:17.4f}")
+        meshing, solving = (np.mean([float(row[name]) for row in here]) for name in ("meshing_s", "solving_s"))
+        lines.append(f"{mach:6.2f}  {meshing:.1f} s of processor for a mesh, {solving:.1f} s for flow and linear solves on it")
     return "\n".join(lines)
 
 
@@ -98,8 +106,10 @@ def main() -> int:
         for mach in arguments.mach:
             if any(int(row["mesh"]) == wanted and float(row["mach"]) == mach for row in rows):
                 continue
-            result = run(arguments, mesh_of(arguments, wanted), mach)
+            case = mesh_of(arguments, wanted)
+            result = run(arguments, case, mach)
             row = {"mesh": wanted, "cells": result["mesh"]["cells"], "mach": mach, "status": result["status"]}
+            row |= {"meshing_s": meshing_seconds(case), "solving_s": round(result["performance"]["cpu_s"], 2)}
             row |= {name: result["derivatives"][name]["value"] for name in DERIVATIVES}
             with open(file, "a", newline="") as lines:
                 writer = csv.DictWriter(lines, COLUMNS)

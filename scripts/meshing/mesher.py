@@ -44,6 +44,9 @@ class Fluid(Protocol):
     def build(self) -> None:
         """Make it the current gmsh model."""
 
+    def align(self, sizes: SizeField, h: float) -> None:
+        """Say where points of the current model lie in rows; wall cells of h."""
+
     def box(self) -> np.ndarray:
         """Corners (2, 3) of a box around the body."""
 
@@ -99,6 +102,7 @@ def mesh_sector(fluid: Fluid, sizes: SizeField, h: float) -> TetMesh:
         with tempfile.TemporaryDirectory() as folder:
             fluid.build()
             set_background(sizes, h, *boxes(fluid), Path(folder))
+            fluid.align(sizes, h)
             points, row = generate(None, 3)
         triangles_of = lambda face: row[gmsh.model.mesh.getElementsByType(2, face)[1].astype(np.int64)].reshape(-1, 3)
         faces = [triangles_of(face) for _, face in gmsh.model.getEntities(2)]

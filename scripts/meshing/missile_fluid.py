@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from meshing.alignment import align, divided
 from meshing.domain import domain_of
 from meshing.geometry import Classifier, build_fluid
 from meshing.missile import Missile
@@ -16,7 +17,7 @@ class MissileFluid:
     """What the mesher wants to know of it; lengths in diameters. See mesher.Fluid."""
 
     def __init__(self, missile: Missile) -> None:
-        self.missile = missile.in_diameters()
+        self.missile = divided(missile.in_diameters())
         self.unit, self.origin = missile.diameter, np.zeros(3)
         self.domain, self.sector = domain_of(self.missile), sector_of(self.missile)
 
@@ -25,6 +26,9 @@ class MissileFluid:
 
     def build(self) -> None:
         build_fluid(self.missile, self.domain, self.sector)
+
+    def align(self, sizes: SizeField, h: float) -> None:
+        align(self.missile, sizes, h)
 
     def box(self) -> np.ndarray:
         """Corners (2, 3) of a box around body and fins."""

@@ -69,6 +69,9 @@ class ShapeFluid:
         boxes = (gmsh.model.getBoundingBox(*face) for face in gmsh.model.getEntities(2))
         return any(max(map(abs, box)) < reach for box in boxes)
 
+    def align(self, sizes: SizeField, h: float) -> None:
+        """Nothing is known of its meridians."""
+
     def box(self) -> np.ndarray:
         points = self.shape.surface.points
         return np.array([points.min(axis=0), points.max(axis=0)])

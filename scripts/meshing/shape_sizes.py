@@ -92,9 +92,8 @@ class ShapeSizes(SizeField):
 
     def _paced(self, points: np.ndarray) -> np.ndarray:
         """Points with what is ahead of the nose and behind the tail drawn out, as cells grow there faster."""
-        pace = 1.0 if self.domain.arc else 2.0
         x = points[:, 0]
-        x = np.clip(x, 0.0, self._tail) + pace * (np.maximum(x - self._tail, 0.0) + np.minimum(x, 0.0))
+        x = np.clip(x, 0.0, self._tail) + self._behind * np.maximum(x - self._tail, 0.0) + self._ahead * np.minimum(x, 0.0)
         return np.column_stack([x, points[:, 1:]])
 
     def __call__(self, points: np.ndarray) -> np.ndarray:
@@ -109,6 +108,5 @@ class ShapeSizes(SizeField):
                 nearest = (own - 2.0 * moved[part] @ samples.T).min(axis=1) + square[part]
                 distance = np.sqrt(np.maximum(nearest, 0.0))
                 wanted[part] = np.minimum(wanted[part], self._grown(size, distance))
-        pace = 1.0 if self.domain.arc else 2.0
-        wanted = self._capped(wanted, x, r, pace * np.maximum(x - self._tail, 0.0))
+        wanted = self._capped(wanted, x, r, self._behind * np.maximum(x - self._tail, 0.0))
         return np.minimum(wanted, FARTHEST / self.stretch) if not self.domain.arc else wanted

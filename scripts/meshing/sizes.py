@@ -2,23 +2,28 @@
 
 Lengths in diameters of the body. Everything is proportional to h, so that meshes of different h are one family. In supersonic flow
 cells matter only inside the domain of dependence of the body: inside the bow shock, and ahead of the Mach lines that reach its tail.
-Coarse cells there scatter the loads, above all Cm_alphadot, from mesh to mesh: `CAP` bounds them. Ahead of the nose and behind the
-tail nothing comes back, and cells grow twice as fast.
+Coarse cells there scatter the loads, above all Cm_alphadot, from mesh to mesh: `CAP` bounds them. The domain of the highest Mach number
+is the smallest and lies in all others: `INNER` bounds the cells there. Ahead of the nose and behind the tail nothing comes back, and
+cells grow two and four times as fast.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from dataclasses import dataclass
 
 import numpy as np
 
-from meshing.domain import Domain
+from meshing.domain import Domain, Shock, bow_shock
 from meshing.missile import Missile, Panel
 from meshing.profiles import fine
 from meshing.sector import Sector
 
-CAP = 2.5  # wall sizes, inside the domain of dependence
+CAP = 2.2  # wall sizes, inside the domain of dependence at the lowest Mach number
+INNER = 1.5  # wall sizes, inside that at the highest one
+LOOSER = 0.4  # wall sizes a diameter, from the one to the other
+AHEAD, BEHIND = 2.0, 4.0  # times as fast do cells grow ahead of the nose and behind the tail in supersonic flow
 BEYOND = 1.06  # of the tangent of the shock's angle
 TAIL = 0.8  # diameters around the tail
 FARTHEST = 14.0  # in frusta, wall sizes
@@ -26,6 +31,21 @@ PER_VOLUME = 5.0  # tetrahedra in the cube of the size, as gmsh makes them where
 REACH = 2.0  # diameters around a panel beyond which it does not matter
 USUAL = 0.08  # h for which the growth is made, in diameters
 THINNEST = 12.0  # thicknesses of a blunt edge that a cell beside it may be long, at h = 0.08 d
+
+
+@dataclass(frozen=True)
+class Dependence:
+    """What reaches the body at a Mach number: inside the bow shock and ahead of the Mach lines to its tail; beta = sqrt(M^2 - 1)."""
+
+    shock: Shock
+    beta: float
+    tail: float
+
+    def outside(self, x: np.ndarray, r: np.ndarray) -> np.ndarray:
+        """How far outside of it points are; 0 inside."""
+        beyond_shock = (r - BEYOND * self.shock.radius(x)) * math.cos(math.radians(self.shock.angle))
+        too_late = (r - TAIL - (self.tail - x) / self.beta) * self.beta / math.hypot(1.0, self.beta)
+        return np.maximum(np.maximum(beyond_shock, too_late), 0.0)
 
 
 class SizeField:
@@ -43,6 +63,14 @@ class SizeField:
         self._largest = float(self._r.max())
         self._tail = max([body.length, *(float(p.x + p.planform.trail.max()) for p in missile.panels)])
         self._breaks = self._find_breaks()
+        self._ahead, self._behind = (1.0, 1.0) if domain.arc else (AHEAD, BEHIND)
+        self._reaches: list[Dependence] = []  # at the lowest and at the highest Mach number
+        if domain.shock is not None:
+            fastest = missile.flight.mach[1]
+            self._reaches = [
+                Dependence(domain.shock, domain.beta, self._tail),
+                Dependence(bow_shock(missile, fastest), math.sqrt(fastest**2 - 1.0), self._tail),
+            ]
 
     def _find_breaks(self) -> list[tuple[float, float, float]]:
         """Corners of the profile where the flow turns by more than 3 degrees: x, r and the size there."""
@@ -65,11 +93,10 @@ class SizeField:
     def __call__(self, points: np.ndarray) -> np.ndarray:
         x = points[:, 0]
         r = np.hypot(points[:, 1], points[:, 2])
-        pace = 1.0 if self.domain.arc else 2.0
-        ahead, behind = pace * np.maximum(-x, 0.0), pace * np.maximum(x - self._tail, 0.0)
+        ahead, behind = self._ahead * np.maximum(-x, 0.0), self._behind * np.maximum(x - self._tail, 0.0)
         radius = np.interp(x, self._x, self._r)
         # The nose: smaller with the local circumference.
-        surface = 0.15 + 0.85 * np.minimum(radius / (0.7 * self._largest), 1.0)
+        surface = 0.2 + 0.8 * np.minimum(radius / (0.7 * self._largest), 1.0)
         distance = np.sqrt(ahead**2 + behind**2 + np.maximum(r - radius, 0.0) ** 2)
         wanted = self._grown(surface, distance)
         for at, corner, size in self._breaks:
@@ -81,16 +108,12 @@ class SizeField:
         return np.minimum(wanted, FARTHEST / self.stretch) if not self.domain.arc else wanted
 
     def _capped(self, wanted: np.ndarray, x: np.ndarray, r: np.ndarray, behind: np.ndarray) -> np.ndarray:
-        """The cap in the domain of dependence, and growth from its edge."""
-        shock = self.domain.shock
-        if shock is None:
+        """The caps in the domains of dependence, and growth from their edge."""
+        if not self._reaches:
             return wanted
-        outside = np.maximum(
-            (r - BEYOND * shock.radius(x)) * math.cos(math.radians(shock.angle)),
-            (r - TAIL - (self._tail - x) / self.domain.beta) * self.domain.beta / math.hypot(1.0, self.domain.beta),
-        )
-        outside = np.maximum(np.maximum(outside, 0.0), behind)
-        return np.minimum(wanted, CAP + 5.0 / self.stretch * outside)
+        slowest, fastest = (reach.outside(x, r) for reach in self._reaches)
+        cap = np.minimum(np.maximum(INNER + LOOSER * fastest, behind), CAP)
+        return np.minimum(wanted, cap + 5.0 / self.stretch * np.maximum(slowest, behind))
 
     def _around(self, panel: Panel, x: np.ndarray, r: np.ndarray) -> np.ndarray:
         """The points at which a panel may matter: a few diameters around it."""
@@ -115,9 +138,9 @@ class SizeField:
         edge = 0.45 * size
         across = np.sqrt(n**2 + beyond**2)
         leading = np.hypot(x - lead, across)
-        tip = np.sqrt((s - plan.span) ** 2 + n**2 + np.maximum(np.maximum(plan.lead[-1] - x, x - plan.trail[-1]), 0.0) ** 2)
+        tip = np.sqrt((s - plan.span) ** 2 + n**2 + np.maximum(np.maximum(plan.lead[-1] - x, x - plan.trail[-1]), behind) ** 2)
         wanted = np.minimum(wanted, np.minimum(edge + 1.5 * leading, edge + 1.5 * tip))
-        trailing = np.hypot(x - trail, across)
+        trailing = np.hypot(np.maximum(np.abs(x - trail), behind), across)
         end = edge
         if panel.section.blunt:
             end = min(edge, max(THINNEST * float(plan.thickness.min()), 0.25 * edge))
