@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # From a fresh checkout to the paper's Table I: installs, builds, meshes the Basic Finner, plunges it at Mach 2.5, takes its
-# derivatives at the paper's five Mach numbers, and prints and draws them beside the paper's. Less than five minutes on two cores.
+# derivatives at the paper's five Mach numbers, and prints and draws them beside the paper's. Less than ten minutes on two cores.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
