@@ -28,6 +28,7 @@ class ShapeSizes(SizeField):
 
     def __init__(self, shape: Shape, domain: Domain, stretch: float = 1.0) -> None:
         super().__init__(shape.envelope(), domain, stretch)
+        self._behind = self._ahead  # faster growth would blur, over a step of the background's grid, into bases of any shape
         self.shape = shape
         x, areas, _ = cross_sections(shape.surface, 200)
         self._x, self._r = x, np.sqrt(areas / np.pi)
