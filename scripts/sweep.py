@@ -37,8 +37,9 @@ CSV file whose first line names axes: matrix = "points.csv". symmetry = ["y", "z
 altitude (m) and unit ("m", "mm", "in", ...: of the mesh) are for dimensional loads.
 A state of mass for the dynamics, as many as there are: [[mass]] with label, mass (kg), inertia = [Ixx, Iyy, Izz] (kg m2), center (of
 gravity, x in the mesh's unit).
-The case may be a description or a design that `alphadot mesh` takes; mesh_mach = [0.5, 2] makes one mesh for that range. Of a
-description panels turn, each combination in a mesh of its own:
+The case may be a description or a design that `alphadot mesh` takes; mesh_mach = [0.5, 2] makes one mesh for that range, and
+model = "full" one of both halves, as a block with sideslip has by itself: the side's derivatives need it. Panels of a description
+turn, each combination in a mesh of its own:
 
   [controls]
   pitch = {canard = [1, 1, -1, -1]}     # degrees of each panel of the set, or of all, per degree of the control

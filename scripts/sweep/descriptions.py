@@ -54,7 +54,7 @@ def meshed(run: Run) -> Path:
     """The case file of the kept mesh of a description, made now unless it is there. Raises SweepError."""
     description = deflected(run)
     inside = run.mesh_mach and run.mesh_mach[0] <= run.mach <= run.mesh_mach[1]
-    return kept(description, description.stat().st_mtime_ns, run.mesh or "coarse", None if inside else run.mach, run.mesh_mach)
+    return kept(description, description.stat().st_mtime_ns, run.mesh or "coarse", None if inside else run.mach, run.mesh_mach, run.model)
 
 
 @lru_cache(maxsize=1024)

@@ -16,7 +16,7 @@ from sweep.errors import SweepError
 Value = bool | int | float | str | list
 DERIVATIVES, STEADY = "derivatives", "steady"  # methods; any other is a kind of motion
 BLOCK_KEYS = {
-    "label", "case", "mesh", "mesh_mach", "method", "mach", "alpha", "beta", "alpha_t", "phi", "deflection", "matrix", "ranks", "set"
+    "label", "case", "mesh", "mesh_mach", "model", "method", "mach", "alpha", "beta", "alpha_t", "phi", "deflection", "matrix", "ranks", "set"
 }  # fmt: skip
 SWEEP_KEYS = BLOCK_KEYS - {"label"} | {"title", "folder", "runs", "controls", "symmetry", "altitude", "unit", "mass"}
 WITHOUT_EFFECT = ("checkpoint", "output")  # tables of the case that change no number
@@ -41,6 +41,7 @@ class Run:
     ranks: int
     settings: dict[str, Value]  # keys of the case that are replaced; the mesh file is not among them
     mesh_mach: tuple[float, float] | None = None  # what a description is meshed for; None: what it says itself
+    model: str = ""  # "half" or "full" mesh of a description; "": half where it is symmetric
     deflections: dict[str, float] = field(default_factory=dict)  # of controls, degrees
     panels: dict[str, Value] = field(default_factory=dict)  # the same of sets of fins: a number, or one a panel
 
@@ -55,9 +56,7 @@ class Run:
 
     @property
     def is_described(self) -> bool:
-        """Is there no mesh before `alphadot mesh` makes it?"""
-        content = case_content(self.case)
-        return self.case.suffix.lower() in DESIGNS or (isinstance(content, dict) and ("body" in content or "surface" in content))
+        return is_described(self.case)
 
     @property
     def volume(self) -> bool | None:
@@ -73,6 +72,7 @@ class Run:
             case = {table: keys for table, keys in case.items() if table not in WITHOUT_EFFECT}
         settings = {key: value for key, value in self.settings.items() if key.split(".")[0] not in WITHOUT_EFFECT}
         more = {"mesh_mach": list(self.mesh_mach)} if self.mesh_mach else {}
+        more |= {"model": self.model} if self.model else {}
         more |= {"panels": self.panels} if self.panels else {}
         return {"verb": self.verb, "case": case, "mesh": self.mesh, "settings": settings} | more
 
@@ -117,6 +117,12 @@ class Sweep:
                 return run
         some = ", ".join(run.name for run in self.runs[:20]) + (", ..." if len(self.runs) > 20 else "")
         raise SweepError(f"{self.file}: has no run '{name}'; it has {some}")
+
+
+def is_described(case: Path) -> bool:
+    """Is there no mesh before `alphadot mesh` makes it?"""
+    content = case_content(case)
+    return case.suffix.lower() in DESIGNS or (isinstance(content, dict) and ("body" in content or "surface" in content))
 
 
 def case_content(path: Path) -> Value | dict | None:
@@ -252,8 +258,14 @@ def expand(path: Path, folder: Path, defaults: dict, block: dict, controls: dict
     mesh_mach = merged.get("mesh_mach")
     if mesh_mach is not None and (not isinstance(mesh_mach, list) or len(mesh_mach) != 2 or not all(map(is_number, mesh_mach))):
         raise SweepError(f"{path}: mesh_mach is the lowest and the highest Mach number of a mesh, such as [1.5, 2.5], not {mesh_mach!r}")
+    model = merged.get("model", "")
+    if model not in ("", "half", "full"):
+        raise SweepError(f'{path}: model, of the mesh of a description, is "half" or "full", not {model!r}')
     runs = []
-    for point in points(str(path), merged, rows, controls):
+    every = points(str(path), merged, rows, controls)
+    if not model and any(point["beta"] for point in every) and is_described(case):
+        model = "full"  # for all of the block: meshes of two kinds would differ by more than the sideslip does
+    for point in every:
         method, mesh, mach, alpha, beta = (point[key] for key in ("method", "mesh", "mach", "alpha", "beta"))
         own = {"freestream.mach": mach, "freestream.alpha": alpha}
         own |= {"freestream.beta": beta} if beta or "beta" in given else {}
@@ -271,7 +283,8 @@ def expand(path: Path, folder: Path, defaults: dict, block: dict, controls: dict
             raise SweepError(f"{path}: '{name}' cannot name a folder; use letters, digits, and . _ - + in label and method")
         runs.append(Run(
             name, folder / name, case, label, method, mach, alpha, beta, mesh, ranks, own,
-            tuple(map(float, mesh_mach)) if mesh_mach else None, point["deflection"], panels_of(path, controls, point["deflection"]),
+            tuple(map(float, mesh_mach)) if mesh_mach else None, model, point["deflection"],
+            panels_of(path, controls, point["deflection"]),
         ))  # fmt: skip
     if any(run.panels for run in runs) and not (runs[0].is_described and case.suffix.lower() == ".toml"):
         raise SweepError(f"{path}: {case.name} is not a description with [[fins]]: there is nothing that a control can turn")

@@ -42,7 +42,7 @@ def expected_size(run: Run) -> float | None:
     cells: a surface.vtkhdf takes 11 a cell, a flow.vtkhdf 76, the mesh file 52, all tables and texts some 60,000."""
     file = mesh_file(run)
     if run.is_described:
-        cells = LEVELS.get(run.mesh or "coarse", 0)
+        cells = LEVELS.get(run.mesh or "coarse", 0) * (2 if run.model == "full" else 1)
     else:
         cells = file.stat().st_size / 52 if file and file.exists() else LEVELS.get(run.mesh, 0)
     return 6e4 + cells * (11 + 76 * bool(run.volume)) if cells else None

@@ -120,6 +120,16 @@ class Axes(Workspace):
         self.assertEqual(len({str(run.identity()) for run in runs}), 4)
         self.assertTrue(all(run.is_described for run in runs))
 
+    def test_sideslip_needs_both_halves(self) -> None:
+        (self.folder / "missile.toml").write_text(MISSILE)
+        head = 'case = "missile.toml"\nfolder = "runs"\n'
+        models = lambda block: [run.model for run in self.runs("[[runs]]\nmach = 2\n" + block, head)]
+        self.assertEqual(models(""), [""])
+        self.assertEqual(models('model = "full"\n'), ["full"])
+        self.assertEqual(models("beta = [0, 2]\n"), ["full", "full"])
+        self.assertEqual(models("alpha_t = [0, 2]\nphi = 45\n"), ["full", "full"])
+        self.refused('[[runs]]\nmach = 2\nmodel = "quarter"\n', "quarter", head=head)
+
     def test_controls_need_a_description(self) -> None:
         block = "[[runs]]\nmach = 2\ndeflection.pitch = 5\n"
         self.refused(block, "is not a description", head=HEAD + "[controls]\npitch = {canard = 1}\n")
