@@ -174,17 +174,18 @@ def row_of(sweep: Sweep, label: str, state: dict, point: Point, altitude: float)
 
 
 def shown(rows: list[dict]) -> list[list[str]]:
-    """Rows for the eye: frequencies in Hz."""
-    head = ["Mach", "alpha", "altitude, m", "margin, l", "Cm_q", "Cm_alphadot", "sum", "damped below"]
+    """Rows for the eye: frequencies in Hz; sideslip where there is any."""
+    aside = any(row["beta"] for row in rows)
+    head = ["Mach", "alpha", *["beta"] * aside, "altitude, m", "margin, l", "Cm_q", "Cm_alphadot", "sum", "damped below"]
     head += ["pitch, Hz", "zeta", "yaw, Hz", "zeta", "roll, s"]
     cell = lambda value, form: "-" if not math.isfinite(value) else format(value, form)
     out = [head]
     for row in rows:
         hertz = [row[name] / (2.0 * math.pi) for name in ("pitch_omega_rad_s", "yaw_omega_rad_s")]
         roll = -1.0 / row["roll_root_1_s"] if row["roll_root_1_s"] else math.nan
-        values = (row["mach"], row["alpha"], row["altitude_m"], row["static_margin"], row["Cm_q"], row["Cm_alphadot"])
+        values = (row["mach"], row["alpha"], *[row["beta"]] * aside, row["altitude_m"], row["static_margin"], row["Cm_q"], row["Cm_alphadot"])
         values += (row["Cm_q_plus_Cm_alphadot"], row["limit"], hertz[0], row["pitch_zeta"], hertz[1], row["yaw_zeta"], roll)
-        forms = ("g", "g", "g", ".2f", ".1f", ".1f", ".1f", ".1f", ".3g", ".4f", ".3g", ".4f", ".3g")
+        forms = ("g", "g", *["g"] * aside, "g", ".2f", ".1f", ".1f", ".1f", ".1f", ".3g", ".4f", ".3g", ".4f", ".3g")
         out.append([cell(value, form) for value, form in zip(values, forms)])
     return out
 
