@@ -13,6 +13,7 @@ from dataclasses import replace
 import gmsh
 import numpy as np
 
+from meshing.generator import MESH_ADAPT
 from meshing.missile import Missile
 from meshing.profiles import Body, Piece, Segment
 
@@ -21,7 +22,6 @@ SHORTEST = 0.5  # diameters of a piece with rows
 SLENDER = 0.2  # diameters: the least radius, where columns are too close together for the sizes along them
 NARROWER = 0.5  # columns on the largest circumference, as a share of the size there
 ON_BODY = 1e-6
-MESH_ADAPT = 1  # of gmsh's algorithms
 
 
 def divided(missile: Missile) -> Missile:

@@ -17,6 +17,8 @@ from meshing.quality import check
 from meshing.tetrahedra import TetMesh
 
 
+MESH_ADAPT, FRONTAL = 1, 6  # of gmsh's algorithms for surfaces; the second is the usual one
+
 # What gmsh calls for the cell size wanted at a point: (dimension, tag, x, y, z) -> size.
 SizeField = Callable[[int, int, float, float, float], float]
 # A generator: (cell size h, command line) -> the mesh, and the case's own lines of the report.
@@ -31,7 +33,7 @@ def generate(size: SizeField | None, dimension: int) -> tuple[np.ndarray, np.nda
     options = {
         "General.NumThreads": 1, "Mesh.RandomSeed": 1,  # the same input gives the same mesh
         "Mesh.MeshSizeExtendFromBoundary": 0, "Mesh.MeshSizeFromPoints": 0, "Mesh.MeshSizeFromCurvature": 0,
-        "Mesh.Algorithm": 6, "Mesh.Algorithm3D": 1, "Mesh.OptimizeThreshold": 0.6,
+        "Mesh.Algorithm": FRONTAL, "Mesh.Algorithm3D": 1, "Mesh.OptimizeThreshold": 0.6,
     }  # fmt: skip
     for name, value in options.items():
         gmsh.option.setNumber(name, value)

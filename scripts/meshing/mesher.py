@@ -12,7 +12,7 @@ import numpy as np
 
 from meshing.background import set_background
 from meshing.domain import Domain
-from meshing.generator import generate
+from meshing.generator import MESH_ADAPT, generate
 from meshing.improvement import relaxed, split_corners
 from meshing.limits import LEVELS
 from meshing.missile import Missile
@@ -103,6 +103,8 @@ def mesh_sector(fluid: Fluid, sizes: SizeField, h: float) -> TetMesh:
             fluid.build()
             set_background(sizes, h, *boxes(fluid), Path(folder))
             fluid.align(sizes, h)
+            if fluid.domain.arc:
+                adapt_planes(fluid.sector)
             points, row = generate(None, 3)
         triangles_of = lambda face: row[gmsh.model.mesh.getElementsByType(2, face)[1].astype(np.int64)].reshape(-1, 3)
         faces = [triangles_of(face) for _, face in gmsh.model.getEntities(2)]
@@ -113,6 +115,15 @@ def mesh_sector(fluid: Fluid, sizes: SizeField, h: float) -> TetMesh:
     for axis in fluid.sector.planes:
         points[mesh.patches[PLANES[axis]], axis] = 0.0
     return relaxed(split_corners(oriented(mesh)), below=0.3)
+
+
+def adapt_planes(sector: Sector) -> None:
+    """Another algorithm for the faces on planes of symmetry: where sizes grow a thousandfold to a sphere, the usual one stops while triangles
+    beside the body are still many times too long."""
+    for _, face in gmsh.model.getEntities(2):
+        low, high = np.reshape(gmsh.model.getBoundingBox(2, face), (2, 3))
+        if any(max(abs(low[axis]), abs(high[axis])) < 1e-6 for axis in sector.planes):
+            gmsh.model.mesh.setAlgorithm(2, face, MESH_ADAPT)
 
 
 def boxes(fluid: Fluid) -> tuple[np.ndarray, np.ndarray]:
