@@ -45,7 +45,7 @@ SUBJECTS = {
 
 def run(program: str, verb: str, subject: Subject, mesh: Path, out: Path, *words: str) -> dict:
     settings = [f"mesh.file={mesh}", "derivatives.limiter_uncertainty=false", "derivatives.coarser_meshes=[]", *subject.settings]
-    line = [program, verb, str(CASES / subject.case), "--out", str(out), *words]
+    line = [program, verb, str(CASES / subject.case), "--out", str(out), "--overwrite", *words]
     for setting in settings:
         line += ["--set", setting]
     done = subprocess.run(line, capture_output=True, text=True, env=os.environ | {"OMP_NUM_THREADS": "1"})

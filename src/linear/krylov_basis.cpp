@@ -18,9 +18,9 @@ constexpr std::size_t chunk = 4096;
 /// The numbers of all cells in a row: sums over them need not know of cells.
 template <class V>
 auto numbers_in(std::span<V> vector) {
-  using Number = std::conditional_t<std::is_const_v<V>, const Real, Real>;
+  using Scalar = std::conditional_t<std::is_const_v<V>, const Real, Real>;
   static_assert(sizeof(V) == 5 * sizeof(Real));
-  return std::span(reinterpret_cast<Number*>(vector.data()), 5 * vector.size());
+  return std::span(reinterpret_cast<Scalar*>(vector.data()), 5 * vector.size());
 }
 
 /// Sum of products, in as many partial sums as keep a processor's vector registers busy.
