@@ -19,7 +19,7 @@ namespace alphadot {
 namespace {
 
 constexpr const char* format_name = "alphadot checkpoint";
-constexpr std::int64_t format_version = 3;
+constexpr std::int64_t format_version = 4;
 
 /// Sum over cells of a hash of id and state: the same in any order and on any number of ranks.
 class StateSum {

@@ -28,6 +28,8 @@ Json json_of(const Result& r) {
   Json forces = json_of(r.forces);
   forces["components"] = Json::object();
   for (const auto& [name, loads] : r.components) forces["components"][name] = json_of(loads);
+  if (!r.one_side.empty()) forces["one_side"] = Json::object();
+  for (const auto& [name, loads] : r.one_side) forces["one_side"][name] = json_of(loads);
   forces["excluded"] = r.excluded;
 
   Json derivatives = Json::object();

@@ -36,9 +36,10 @@ def case_text(missile: Missile | Shape, made: Made, mesh_file: str, coarser: lis
         "[boundary]",
         *(f'{name} = "{KINDS.get(name, "wall")}"' for name in made.mesh.patches),
     ]
-    sets = [[panel.name for panel in missile.panels if panel.set_name == name and panel.name in walls] for name in fin_sets(missile)]
+    sets = {name: [panel.name for panel in missile.panels if panel.set_name == name and panel.name in walls] for name in fin_sets(missile)}
+    sets = {name: panels for name, panels in sets.items() if panels and name not in made.mesh.patches}
     if sets:
-        lines += ["", "# Loads of a set of fins: alphadot adjoint case.toml --of " + ",".join("CN@" + "+".join(names) for names in sets)]
+        lines += ["", "[components]", *(f"{name} = [{', '.join(map(quoted, panels))}]" for name, panels in sets.items())]
     if coarser:
         lines += ["", "[derivatives]", f"coarser_meshes = [{', '.join(map(quoted, coarser))}]"]
     return "\n".join(lines) + "\n"

@@ -22,6 +22,7 @@
 #include "core/log.hpp"
 #include "core/timer.hpp"
 #include "derivatives/balance.hpp"
+#include "derivatives/component_table.hpp"
 #include "derivatives/loads.hpp"
 #include "io/files.hpp"
 
@@ -38,7 +39,7 @@ std::set<Variable> on_stability_axes(std::set<Variable> unconverged) {
 
 /// The same numbers for spreadsheets, AVL's readers and JSBSim.
 void write_tables(const CaseRun& run, RunStatus end, const EstimatedDerivatives& estimated,
-                  const std::vector<TableRow>& rows) {
+                  std::span<const ComponentDerivatives> components, const std::vector<TableRow>& rows) {
   const Case& settings = run.settings();
   const auto& derivatives = estimated.derivatives;
   const auto head = run.record().table_head(end, rows);
@@ -56,6 +57,9 @@ void write_tables(const CaseRun& run, RunStatus end, const EstimatedDerivatives&
                                    head, Axes::stability));
   replace_file_with(stem + ".st", avl_stability_text(point));
   replace_file_with(stem + ".jsbsim.xml", jsbsim_aerodynamics(point));
+  auto of_components = head;
+  of_components.uncertainty = solver_only;
+  replace_file_with(run.record().folder() + "/components.csv", component_csv(components, of_components));
 }
 
 /// The limits of quasi-steady flight, which are no rows of a table.
@@ -89,6 +93,7 @@ struct Outcome {
 Outcome complete(CaseRun& run, std::span<const MeshDerivatives> coarser) {
   auto& record = run.record();
   EstimatedDerivatives estimated;
+  std::vector<ComponentDerivatives> components;
   Real linear_cpu = not_measured;
   bool foundation_holds = false;  // of all derivatives: the steady flow and the coarser meshes
   const RunStatus status = run.carry_out([&](RunStatus marched) {
@@ -100,11 +105,14 @@ Outcome complete(CaseRun& run, std::span<const MeshDerivatives> coarser) {
     auto solved = linear_derivatives(run.flow(), responses, solves.observer());
     for (auto& shortfall : solved.shortfalls) record.fall_short(std::move(shortfall));
     estimated = std::move(solved.estimated);
+    components = std::move(solved.components);
     linear_cpu = timer.cpu();
     return estimated.derivatives.empty() ? RunStatus::interrupted : marched;
   });
   if (!foundation_holds)
     for (const auto& [variable, column] : estimated.derivatives) estimated.unconverged.insert(variable);
+  for (auto& component : components)
+    component.estimated.unconverged = component.one_side.unconverged = estimated.unconverged;
   DerivativeSetOf<MeshConvergence> convergence;
   if (!estimated.derivatives.empty() && !coarser.empty())
     convergence = add_mesh_part(estimated, run.flow(), coarser);
@@ -120,7 +128,7 @@ Outcome complete(CaseRun& run, std::span<const MeshDerivatives> coarser) {
     const auto balance = balance_rows(settings, estimated);
     result.longitudinal = longitudinal_of(balance, estimated.derivatives);
     rows.insert(rows.end(), balance.begin(), balance.end());
-    run.communicator().on_root([&] { write_tables(run, status, estimated, rows); });
+    run.communicator().on_root([&] { write_tables(run, status, estimated, components, rows); });
   }
   return {std::move(result), std::move(estimated.derivatives), std::move(rows)};
 }

@@ -27,7 +27,8 @@ std::string entry_of(ResponseKey key) {
 /// What a checkpoint keeps of a response besides its field.
 std::vector<Real> numbers_of(const Sensitivity& response) {
   std::vector<Load> loads{response.total, response.total_error};
-  loads.insert(loads.end(), response.loads.begin(), response.loads.end());
+  for (const auto* of_patches : {&response.loads, &response.loads_error})
+    loads.insert(loads.end(), of_patches->begin(), of_patches->end());
   auto out = numbers_of(loads);
   out.insert(out.end(),
              {static_cast<Real>(response.iterations), response.relative_error, response.relative_residual});
@@ -45,7 +46,9 @@ Sensitivity response_of(Variable variable, const std::vector<Real>& numbers, std
   out.relative_residual = numbers.back();
   out.total = loads.at(0);
   out.total_error = loads.at(1);
-  out.loads.assign(loads.begin() + 2, loads.end());
+  const auto patches = loads.begin() + 2, errors = patches + (loads.end() - patches) / 2;
+  out.loads.assign(patches, errors);
+  out.loads_error.assign(errors, loads.end());
   return out;
 }
 

@@ -16,6 +16,7 @@
 #include "core/log.hpp"
 #include "core/memory.hpp"
 #include "derivatives/loads.hpp"
+#include "derivatives/part.hpp"
 #include "io/files.hpp"
 
 namespace alphadot {
@@ -157,10 +158,15 @@ Result RunRecord::result(RunStatus end, std::span<const TableRow> derivatives) c
   out.rate = "length / (2 V)";
   out.axes = "body: x aft, z up for forces; moments nose up and nose to starboard positive";
   out.forces = named(coefficients(flow_.steady_report().total, flow_.settings()));
-  for (std::size_t patch = 0; patch < flow_.steady_report().loads.size(); ++patch)
-    if (flow_.setup().patch_kinds[patch] == BoundaryKind::wall)
-      out.components[flow_.setup().domain.patch_names[patch]] =
-          named(coefficients(flow_.steady_report().loads[patch], flow_.settings()));
+  const auto& patches = flow_.setup().domain.patch_names;
+  const auto& loads = flow_.steady_report().loads;
+  if (!loads.empty())
+    for (const auto& [name, walls] : components_of(flow_.settings())) {
+      const Load load = Part(walls, patches).of(loads, {});
+      out.components[name] = named(coefficients(load, flow_.settings()));
+      if (flow_.settings().reference.half_model)
+        out.one_side[name] = named(coefficients(load, of_one_side(flow_.settings())));
+    }
   out.excluded = excluded_patches(flow_.setup());
   for (const auto& row : derivatives)
     out.derivatives[row.name] = {row.value.value, row.value.uncertainty, row.method, row.converged,

@@ -9,9 +9,9 @@ namespace alphadot {
 namespace {
 
 /// Tables end with a dot.
-constexpr std::string_view always_free[] = {"title",        "mesh.file",       "mesh.from",
-                                            "mesh.level",   "output.",         "checkpoint.",
-                                            "derivatives.", "unsteady.cycles", "motion.table_file"};
+constexpr std::string_view always_free[] = {
+    "title",       "mesh.file",    "mesh.from",   "mesh.level",      "output.",
+    "checkpoint.", "derivatives.", "components.", "unsteady.cycles", "motion.table_file"};
 constexpr std::string_view free_in_motion[] = {"steady.", "unsteady.inner_tolerance", "unsteady.max_inner"};
 constexpr std::string_view free_in_flow[] = {"motion.kind", "motion.treatment", "motion.amplitude",
                                              "motion.reduced_frequency", "unsteady."};

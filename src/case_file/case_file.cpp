@@ -6,6 +6,7 @@
 #include <deque>
 #include <filesystem>
 #include <map>
+#include <set>
 #include <tuple>
 
 #include "case_file/case_keys.hpp"
@@ -13,6 +14,7 @@
 #include "core/error.hpp"
 #include "core/fit_needs.hpp"
 #include "io/files.hpp"
+#include "io/history.hpp"
 #include "io/toml_text.hpp"
 
 namespace alphadot {
@@ -108,7 +110,8 @@ class CaseReader {
       const auto name = std::string_view(path).substr(entry.key->table().size());
       if (auto problem = entry.key->read(name, *entry.node, c))
         complain(entry.place, {"", entry.line, path + " " + problem->what, problem->remedy});
-      if (entry.key->is_family() && entry.line > 0) c.boundary_lines[std::string(name)] = entry.line;
+      if (entry.key->table() == "boundary." && entry.line > 0)
+        c.boundary_lines[std::string(name)] = entry.line;
     }
     if (!unreadable_) {
       check_required();
@@ -196,8 +199,29 @@ class CaseReader {
     }
   }
 
+  /// Sets of walls, under names of their own.
+  void check_components(const Case& c) {
+    for (const auto& [name, patches] : c.components) {
+      const std::string key = "components." + name;
+      if (c.boundary.contains(name) || is_reserved_component(name))
+        complain_about({key},
+                       fmt::format("{} has the name of {} already", key,
+                                   c.boundary.contains(name) ? "a patch" : "a column"),
+                       "give the set another name");
+      if (patches.empty()) complain_about({key}, key + " has no walls", "name some, or leave it out");
+      for (const auto& patch : patches)
+        if (const auto kind = c.boundary.find(patch);
+            kind == c.boundary.end() || kind->second != BoundaryKind::wall)
+          complain_about({key}, fmt::format("{} names \"{}\", which is no wall of the case", key, patch),
+                         "name patches that [boundary] makes walls");
+      if (std::set<std::string>(patches.begin(), patches.end()).size() != patches.size())
+        complain_about({key}, key + " names a wall twice", "name each once");
+    }
+  }
+
   /// What no single key can tell.
   void check_together(const Case& c) {
+    check_components(c);
     const auto kind = c.motion.kind;
     const std::string motion = "motion.kind = " + toml_string(word_of(kind));
     if (c.steady.cfl_max < c.steady.cfl_start)

@@ -63,6 +63,28 @@ CaseKey boundary_key() {
   return key;
 }
 
+/// [components]: name = ["wall", ...], for any name.
+CaseKey components_key() {
+  const TextsValue walls{.most = 1000};
+  CaseKey key;
+  key.path = "components.*";
+  key.type = walls.type();
+  key.doc = "walls whose loads and derivatives are wanted together, beside those of each by itself";
+  key.read = [walls](std::string_view name, const toml::node& value, Case& c) {
+    std::vector<std::string> patches;
+    auto problem = walls.read(value, patches);
+    if (!problem) c.components[std::string(name)] = std::move(patches);
+    return problem;
+  };
+  key.write = [walls](const Case& c) {
+    std::string lines;
+    for (const auto& [name, patches] : c.components)
+      lines += fmt::format("{} = {}\n", toml_string(name), walls.write(patches));
+    return lines;
+  };
+  return key;
+}
+
 std::vector<CaseKey> make_keys() {
   const auto count = IntegerValue{.from = 1, .to = most_steps};
   const auto none_or_more = IntegerValue{.from = 0, .to = most_steps};
@@ -112,6 +134,7 @@ std::vector<CaseKey> make_keys() {
            "ratio of specific heats");
 
   keys.push_back(boundary_key());
+  keys.push_back(components_key());
 
   Table(keys, "space", &Case::space)
       .key("flux", &SpaceSettings::flux, WordValue{words_of<FluxKind>}, "numerical flux")

@@ -21,6 +21,7 @@ std::string default_of(const CaseKey& key) {
   if (key.required) return "required";
   if (!key.default_note.empty()) return "default " + key.default_note;
   const std::string line = key.write(Case{});
+  if (line.empty()) return "optional";
   const std::string value = line.substr(line.find(" = ") + 3, line.size() - line.find(" = ") - 4);
   return value == "\"\"" ? "optional" : "default " + value;
 }
@@ -29,7 +30,8 @@ std::string default_of(const CaseKey& key) {
 
 std::string resolved_case(const Case& c) {
   std::string text, table;
-  for (const auto& key : case_keys()) text += heading(key, table) + key.write(c);
+  for (const auto& key : case_keys())
+    if (const auto lines = key.write(c); !lines.empty()) text += heading(key, table) + lines;
   return text;
 }
 
@@ -37,7 +39,7 @@ std::string describe_case_keys() {
   std::string text, table;
   for (const auto& key : case_keys()) {
     text += heading(key, table);
-    text += fmt::format("  {:<18} {}\n  {:<18} {}, {}\n", key.is_family() ? "<patch>" : key.name(), key.doc,
+    text += fmt::format("  {:<18} {}\n  {:<18} {}, {}\n", key.is_family() ? "<name>" : key.name(), key.doc,
                         "", key.type, default_of(key));
   }
   return text;

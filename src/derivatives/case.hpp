@@ -64,6 +64,8 @@ struct Case : FlightCondition {
   std::string file;  ///< path of the case file, for messages
   MeshSettings mesh;
   std::map<std::string, BoundaryKind> boundary;
+  /// Sets of walls whose derivatives are wanted, beside those of each wall by itself.
+  std::map<std::string, std::vector<std::string>> components;
   std::map<std::string, int> boundary_lines;  ///< where the case file names the patches, for messages
   SpaceSettings space;
   SteadySettings steady;

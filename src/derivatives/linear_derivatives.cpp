@@ -11,6 +11,7 @@
 #include "core/log.hpp"
 #include "derivatives/flight_variables.hpp"
 #include "derivatives/loads.hpp"
+#include "derivatives/part.hpp"
 #include "derivatives/sensitivity.hpp"
 #include "derivatives/steady_error.hpp"
 
@@ -63,24 +64,24 @@ std::vector<std::vector<Variable>> groups_of(const Case& settings) {
   return out;
 }
 
-CoefficientsOf<Estimate> column_of(Variable variable, const Sensitivity& solution, const Case& settings) {
+CoefficientsOf<Estimate> column_of(Variable variable, const Sensitivity& solution, const Part& part,
+                                   const FlightCondition& settings) {
   const Real scale = rate_scale(variable, settings);
-  const auto values = coefficients(scale * solution.total, settings);
-  const auto errors = coefficients(scale * solution.total_error, settings);
+  const auto values = coefficients(scale * part.of(solution.loads, solution.total), settings);
+  const auto errors = coefficients(scale * part.of(solution.loads_error, solution.total_error), settings);
   CoefficientsOf<Estimate> out;
   for (int i = 0; i < Coefficients::size(); ++i) out[i] = {values[i], std::abs(errors[i])};
   return out;
 }
 
-/// Solves for all variables but those that have been solved for, and says of each how that went. The
-/// uncertainty is that of the linear solves. Nothing when the observer ended it.
-DerivativeSet solve_all(const FlowCase& flow, SensitivitySolver& solver, Responses& responses,
-                        bool limiter_held, const SolveObserver& observer, LinearDerivatives& out) {
+/// Solves for all variables but those that have been solved for, and says of each how that went. False when
+/// the observer ended it.
+bool solve_all(const FlowCase& flow, SensitivitySolver& solver, Responses& responses, bool limiter_held,
+               const SolveObserver& observer, LinearDerivatives& out) {
   if (limiter_held) {
     spdlog::info("once more with the limiter's factors held");
     solver.hold_limiter();
   }
-  DerivativeSet derivatives;
   auto& unconverged = out.estimated.unconverged;
   for (const auto& group : groups_of(flow.settings())) {
     if (!responses.contains({group.front(), limiter_held})) {
@@ -88,14 +89,13 @@ DerivativeSet solve_all(const FlowCase& flow, SensitivitySolver& solver, Respons
       for (const auto variable : group)
         problems.push_back(problem_of({variable, limiter_held}, flow, responses));
       auto solved = solver.solve(problems);
-      if (solved.empty()) return {};
+      if (solved.empty()) return false;
       for (std::size_t i = 0; i < group.size(); ++i)
         responses[{group[i], limiter_held}] = std::move(solved[i]);
       if (observer.solved) observer.solved();
     }
     for (const auto variable : group) {
       const auto& solution = responses.at({variable, limiter_held});
-      derivatives[variable] = column_of(variable, solution, flow.settings());
       spdlog::info("{:9} {:3} iterations, linear residual {:.1e}", name(variable), solution.iterations,
                    solution.relative_residual);
       auto shortfall = shortfall_of_solve(name(variable), solution.relative_residual, solution.iterations,
@@ -105,7 +105,7 @@ DerivativeSet solve_all(const FlowCase& flow, SensitivitySolver& solver, Respons
       if (!shortfall.empty()) out.shortfalls.push_back(std::move(shortfall));
     }
   }
-  return derivatives;
+  return true;
 }
 
 /// For what a step of Newton's method leaves to the next, also of a component that it happens not to move:
@@ -123,47 +123,98 @@ Coefficients largest_of(const Coefficients& column, Real arm) {
   return largest * unit;
 }
 
-/// Bound of what a deeply converged steady residual still does: a share of what is large in each variable.
-DerivativeSetOf<Real> small_steady_part(const DerivativeSet& derivatives, Real orders, Real arm) {
-  DerivativeSetOf<Real> out;
-  for (const auto& [variable, column] : derivatives) {
-    Coefficients values;
-    for (int i = 0; i < column.size(); ++i) values[i] = column[i].value;
-    out[variable] = std::pow(10.0, lost_decades - orders) * largest_of(values, arm);
-  }
-  return out;
-}
-
-/// How much the derivatives change when the steady flow becomes one step of Newton's method better. Nothing
-/// when the run was stopped.
-DerivativeSetOf<Real> steady_part(FlowCase& flow, SensitivitySolver& solver, const Responses& responses,
-                                  const DerivativeSet& derivatives, Real arm,
-                                  const std::function<bool()>& go_on) {
+/// The responses of the flow that is one step of Newton's method nearer to the steady one, without their
+/// fields. Empty when the run was stopped.
+Responses solve_nearer(FlowCase& flow, SensitivitySolver& solver, const Responses& responses,
+                       const std::function<bool()>& go_on) {
+  spdlog::info("once more about a flow one step of Newton's method nearer to the steady one");
   const NewtonStep step(flow.iteration(), flow.conditions(), solver);
   if (step.was_stopped()) return {};
   auto settings = flow.settings().derivatives;
   settings.orders = 1;  // of a small difference
   SensitivitySolver better(flow.iteration(), flow.conditions(), settings, go_on);
-  Responses solved;
-  DerivativeSetOf<Real> out;
+  Responses out;
   for (const auto& group : groups_of(flow.settings())) {
     std::vector<SensitivityProblem> problems;
     for (const auto variable : group) {
-      problems.push_back(problem_of({variable}, flow, solved));
+      problems.push_back(problem_of({variable}, flow, out));
       problems.back().guess = responses.at({variable}).field;
     }
     auto changed = better.solve(problems);
     if (changed.empty()) return {};
-    for (std::size_t i = 0; i < group.size(); ++i) {
-      const auto column = column_of(group[i], changed[i], flow.settings());
-      Coefficients change;
-      for (int k = 0; k < column.size(); ++k)
-        change[k] = std::abs(column[k].value - derivatives.at(group[i])[k].value);
-      const auto largest = largest_of(change, arm);
-      for (int k = 0; k < column.size(); ++k)
-        out[group[i]][k] = step_safety * (change[k] + of_other_components * largest[k]);
-      solved[{group[i]}] = std::move(changed[i]);
+    for (std::size_t i = 0; i < group.size(); ++i) out[{group[i]}] = std::move(changed[i]);
+  }
+  for (auto& [key, response] : out) response.field = {};
+  return out;
+}
+
+/// What the responses say of parts of the configuration.
+class Estimation {
+ public:
+  /// `nearer`: the responses of a flow nearer to the steady one, or none when the flow is a steady one by its
+  /// decades. `arm`: between forces and moments, in reference lengths.
+  Estimation(const FlowCase& flow, const Responses& responses, const Responses& nearer, Real arm)
+      : flow_(flow), responses_(responses), nearer_(nearer), arm_(arm) {}
+
+  /// Of a part, with the coefficients of `settings`, and the uncertainties with their parts.
+  EstimatedDerivatives of(const Part& part, const FlightCondition& settings) const {
+    EstimatedDerivatives out;
+    UncertaintyPart linear{"linear", {}}, steady{"steady", {}}, limiter{"limiter", {}};
+    const bool has_limiter = flow_.settings().derivatives.limiter_uncertainty;
+    for (const auto& group : groups_of(flow_.settings()))
+      for (const auto variable : group) {
+        const auto& column = out.derivatives[variable] =
+            column_of(variable, responses_.at({variable}), part, settings);
+        for (int i = 0; i < column.size(); ++i) linear.half_width[variable][i] = column[i].uncertainty;
+        steady.half_width[variable] = steady_half_width(variable, column, part, settings);
+        if (has_limiter)
+          limiter.half_width[variable] =
+              change(column, column_of(variable, responses_.at({variable, true}), part, settings));
+      }
+    out.parts.push_back(std::move(linear));
+    out.add(steady.source, std::move(steady.half_width));
+    if (has_limiter) out.add(limiter.source, std::move(limiter.half_width));
+    return out;
+  }
+
+ private:
+  static Coefficients change(const CoefficientsOf<Estimate>& before, const CoefficientsOf<Estimate>& after) {
+    Coefficients out;
+    for (int i = 0; i < out.size(); ++i) out[i] = std::abs(after[i].value - before[i].value);
+    return out;
+  }
+
+  /// What the steady residual still does: a share of what is large in the variable's column of the whole, or
+  /// by how much the column changes in the flow that is nearer to the steady one.
+  Coefficients steady_half_width(Variable variable, const CoefficientsOf<Estimate>& column, const Part& part,
+                                 const FlightCondition& settings) const {
+    const auto whole = column_of(variable, responses_.at({variable}), {}, settings);
+    Coefficients out;
+    if (nearer_.empty()) {
+      out = std::pow(10.0, lost_decades - flow_.steady_orders()) * largest_of(change({}, whole), arm_);
+    } else {
+      const auto& better = nearer_.at({variable});
+      const auto largest = largest_of(change(whole, column_of(variable, better, {}, settings)), arm_);
+      out = step_safety *
+            (change(column, column_of(variable, better, part, settings)) + of_other_components * largest);
     }
+    if (settings.reference.half_model) out.CY = out.Cl = out.Cn = 0;  // the mirror image cancels them
+    return out;
+  }
+
+  const FlowCase& flow_;
+  const Responses &responses_, &nearer_;
+  Real arm_;
+};
+
+/// What each wall, and each set of walls that the case names, contributes.
+std::vector<ComponentDerivatives> component_derivatives(const FlowCase& flow, const Estimation& estimation) {
+  const Case& settings = flow.settings();
+  std::vector<ComponentDerivatives> out;
+  for (const auto& [name, walls] : components_of(settings)) {
+    const Part part(walls, flow.setup().domain.patch_names);
+    out.push_back({name, walls, estimation.of(part, settings), {}});
+    if (settings.reference.half_model) out.back().one_side = estimation.of(part, of_one_side(settings));
   }
   return out;
 }
@@ -180,31 +231,20 @@ LinearDerivatives linear_derivatives(FlowCase& flow, Responses& responses, const
   const auto& settings = flow.settings().derivatives;
   SensitivitySolver solver(flow.iteration(), flow.conditions(), settings, observer.go_on);
   LinearDerivatives out;
-  EstimatedDerivatives& estimated = out.estimated;
-  const auto ended = [&] { return LinearDerivatives{{}, std::move(out.shortfalls)}; };
-  estimated.derivatives = solve_all(flow, solver, responses, false, observer, out);
-  if (estimated.derivatives.empty()) return ended();
-  auto& linear = estimated.parts.emplace_back(UncertaintyPart{"linear", {}});
-  for (const auto& [variable, column] : estimated.derivatives)
-    for (int i = 0; i < column.size(); ++i) linear.half_width[variable][i] = column[i].uncertainty;
-  const Real arm = solver.body_size() / flow.settings().reference.length;
+  const auto ended = [&] { return LinearDerivatives{{}, {}, std::move(out.shortfalls)}; };
+  if (!solve_all(flow, solver, responses, false, observer, out)) return ended();
+  Responses nearer;
   if (flow.steady_orders() < deep_steady_orders) {
-    spdlog::info("once more about a flow one step of Newton's method nearer to the steady one");
-    auto half_width = steady_part(flow, solver, responses, estimated.derivatives, arm, observer.go_on);
-    if (half_width.empty()) return ended();
-    estimated.add("steady", std::move(half_width));
-  } else {
-    estimated.add("steady", small_steady_part(estimated.derivatives, flow.steady_orders(), arm));
+    nearer = solve_nearer(flow, solver, responses, observer.go_on);
+    if (nearer.empty()) return ended();
   }
-  if (!settings.limiter_uncertainty) return out;
-
-  const DerivativeSet held = solve_all(flow, solver, responses, true, observer, out);
-  if (held.empty()) return ended();
-  DerivativeSetOf<Real> half_width;
-  for (const auto& [variable, column] : estimated.derivatives)
-    for (int i = 0; i < column.size(); ++i)
-      half_width[variable][i] = std::abs(held.at(variable)[i].value - column[i].value);
-  estimated.add("limiter", std::move(half_width));
+  if (settings.limiter_uncertainty && !solve_all(flow, solver, responses, true, observer, out))
+    return ended();
+  const Estimation estimation(flow, responses, nearer, solver.body_size() / flow.settings().reference.length);
+  auto unconverged = std::move(out.estimated.unconverged);
+  out.estimated = estimation.of({}, flow.settings());
+  out.estimated.unconverged = std::move(unconverged);
+  out.components = component_derivatives(flow, estimation);
   return out;
 }
 

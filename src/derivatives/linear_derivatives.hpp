@@ -29,12 +29,21 @@ struct SolveObserver {
   std::function<void()> solved = {};
 };
 
+/// What some walls contribute to the derivatives of the whole.
+struct ComponentDerivatives {
+  std::string name;
+  std::vector<std::string> walls;
+  EstimatedDerivatives estimated;  ///< on a half model with the mirror image, whose lateral loads cancel
+  EstimatedDerivatives one_side;   ///< of a half model: all loads of the walls of the mesh alone
+};
+
 /// What linear solves give.
 struct LinearDerivatives {
   /// About the case's moment centre, per rad and reduced rate. The parts are "linear", "steady" and, when the
   /// case asks for it, "limiter". No derivatives: the observer ended the solves.
   EstimatedDerivatives estimated;
-  std::vector<std::string> shortfalls = {};  ///< solves that did not reach their tolerance
+  std::vector<ComponentDerivatives> components;  ///< each wall, and each set of walls of the case, by name
+  std::vector<std::string> shortfalls = {};      ///< solves that did not reach their tolerance
 };
 
 /// Solves for all derivatives about the steady flow that `flow` has marched to: alpha, q, alphadot, on a full

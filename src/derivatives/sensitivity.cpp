@@ -60,19 +60,24 @@ Sensitivity sensitivity_of(const SensitivityProblem& problem, Real orders, std::
   Sensitivity out;
   out.name = problem.name;
   out.field = std::move(field);
+  std::vector<std::vector<Real>> totals;
   for (auto& functionals : record.functionals) {
     comm.sum(functionals);
     out.loads = loads_of(functionals);
     out.total = total_of(out.loads);
-    functionals = numbers_of(std::span(&out.total, 1));
+    totals.push_back(numbers_of(std::span(&out.total, 1)));
   }
   out.relative_residual = record.drop();
   out.iterations = iterations;
+  const auto left = [&](std::span<const std::vector<Real>> functionals, std::span<const Real> scales) {
+    return remaining_error(record.norms, functionals, scales, out.relative_residual, orders,
+                           problem.rate_error);
+  };
   const auto scales = scales_of(out.total, body_size, 1);
-  const auto error = remaining_error(record.norms, record.functionals, scales, out.relative_residual, orders,
-                                     problem.rate_error);
+  const auto error = left(totals, scales);
   out.relative_error = relative_error(error, scales);
   out.total_error = loads_of(error).front();
+  out.loads_error = loads_of(left(record.functionals, scales_of(out.total, body_size, out.loads.size())));
   return out;
 }
 

@@ -33,6 +33,7 @@ struct Sensitivity {
   std::string name;
   std::vector<Primitive<Real>> field;  ///< W_c, [owned_cells]
   std::vector<Load> loads;             ///< change of the load of every patch, over all ranks
+  std::vector<Load> loads_error;       ///< how far they may be from those of the exact solution
   Load total;
   Load total_error;  ///< how far the total may be from that of the exact solution of the linear problem
   Real relative_error = 0;     ///< the largest of them beside the size of the total

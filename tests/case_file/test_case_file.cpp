@@ -142,7 +142,7 @@ TEST(CaseFile, EveryKeyWithEveryWordReadsBackTheSame) {
 TEST(CaseFile, DocumentationNamesEveryKey) {
   const std::string text = describe_case_keys();
   for (const auto& key : case_keys())
-    EXPECT_NE(text.find(key.is_family() ? "<patch>" : key.name()), std::string::npos) << key.path;
+    EXPECT_NE(text.find(key.is_family() ? "<name>" : key.name()), std::string::npos) << key.path;
   EXPECT_NE(text.find("a number from 1.01 to 5, default 1.4"), std::string::npos);
 }
 
