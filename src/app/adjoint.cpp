@@ -28,7 +28,11 @@ std::vector<Functional> functionals_of(const std::vector<std::string>& names, co
   std::vector<Functional> out;
   std::vector<Problem> problems;
   for (const auto& name : names)
-    collect(problems, [&] { out.push_back(parse_functional(name, "--of", settings, settings.boundary)); });
+    collect(problems, [&] {
+      auto functional = parse_functional(name, "--of", settings, settings.boundary);
+      if (std::ranges::find(out, functional.name(), &Functional::name) == out.end())
+        out.push_back(std::move(functional));
+    });
   if (!problems.empty()) throw InputError(std::move(problems));
   return out;
 }
@@ -74,7 +78,7 @@ void write_surface_sensitivity(const CaseRun& run, AdjointDerivatives& solver, c
   const auto& record = run.record();
   std::string csv = csv_comment("Flow: " + record.origin().text() +
                                 "\nderivatives by the place of the walls' points, those inside held; lengths "
-                                "in mesh units\n") +
+                                "in the unit of the reference length\n") +
                     csv_line(cells);
   for (std::size_t point = 0; point < sensitivities[0].points().size(); ++point) {
     const auto& [id, at, unused] = sensitivities[0].points()[point];

@@ -197,7 +197,8 @@ int main(int argc, char** argv) {
       ->required();
   derive
       .add_option("--center", derivation.centers,
-                  "Moment centre x or x,y,z in mesh units; may be repeated (default: that of the run)")
+                  "Moment centre x or x,y,z in the unit of the reference length; may be repeated (default: "
+                  "that of the run)")
       ->check(center_text())
       ->type_name("")
       ->take_all()

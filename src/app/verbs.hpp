@@ -36,7 +36,8 @@ struct PartitionArguments {
 
 struct DeriveArguments {
   std::vector<std::string> files;    ///< history.h5 or result.json
-  std::vector<std::string> centers;  ///< "x" or "x,y,z" in mesh units; none here and below: that of each file
+  std::vector<std::string> centers;  ///< "x" or "x,y,z" in the unit of the reference length; none here and
+                                     ///< below: that of each file
   std::string centers_file;          ///< with a centre a line; empty: none
   bool as_json = false;
 };

@@ -115,8 +115,8 @@ Adjoint adjoint_of(const AdjointProblem& problem, Real orders, Field field, Bloc
   std::vector<Real> sensitivity;  // dJ/dc = J_c - psi . R_c
   for (const Real product : record.functionals.back()) sensitivity.push_back(-product);
   const auto scales = scales_of(sensitivity, body_size);
-  const auto error =
-      remaining_error(record.norms, record.functionals, scales, record.drop(), orders, problem.rate_error);
+  const auto error = remaining_error(record.norms, record.functionals, scales, record.drop(), orders,
+                                     problem.inherited_error);
   return {.name = problem.name,
           .field = std::move(field),
           .sensitivity = change_of(sensitivity),

@@ -23,7 +23,7 @@ struct AdjointProblem {
   std::string name;
   std::vector<Load> weights = {};              ///< of every patch's load; none for an adjoint to a rate
   std::span<const Conserved<Real>> rate = {};  ///< psi of the functional, [owned_cells]; or empty
-  Real rate_error = 0;                         ///< its relative error, which reaches this one too
+  Real inherited_error = 0;                    ///< relative, of psi or of the flow that the problem is about
 };
 
 struct Adjoint {

@@ -67,8 +67,10 @@ bool AdjointDerivatives::solve(Adjoints& adjoints) {
     for (const auto& link : links) {
       if (adjoints.contains(link.name())) continue;
       if (link.rates == 0)
-        problems.push_back(
-            {link.name(), weights_of(link, flow_.setup().domain.patch_names, flow_.settings())});
+        problems.push_back({link.name(),
+                            weights_of(link, flow_.setup().domain.patch_names, flow_.settings()),
+                            {},
+                            steady_error(flow_.steady_orders())});
       else
         problems.push_back({link.name(),
                             {},

@@ -80,7 +80,8 @@ bool solve_oscillations(FlowCase& flow, const std::vector<Real>& frequencies, Os
       FrequencyResponse response;
       if (!solver.solve(
               {fmt::format("{} at k = {:g}", name(variable), k), change_of(variable, settings.freestream),
-               k * 2 * settings.freestream.mach / settings.reference.length, guess},
+               k * 2 * settings.freestream.mach / settings.reference.length, guess,
+               steady_error(flow.steady_orders())},
               response))
         return false;
       spdlog::info("k = {:<8g} {:6} {:3} iterations, linear residual {:.1e}", k, name(variable),

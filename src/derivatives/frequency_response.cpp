@@ -72,8 +72,8 @@ class FrequencyOperator {
   std::array<std::vector<Load>, 2> loads_;
 };
 
-FrequencyResponse response_of(Real orders, std::vector<Primitive<Real>> field, BlockRecord record,
-                              int iterations, Real body_size, const Communicator& comm) {
+FrequencyResponse response_of(Real orders, Real inherited_error, std::vector<Primitive<Real>> field,
+                              BlockRecord record, int iterations, Real body_size, const Communicator& comm) {
   FrequencyResponse out;
   out.field = std::move(field);
   std::ptrdiff_t patches = 0;
@@ -100,8 +100,8 @@ FrequencyResponse response_of(Real orders, std::vector<Primitive<Real>> field, B
     size.moment[axis] = std::hypot(out.total[0].moment[axis], out.total[1].moment[axis]);
   }
   const auto scales = scales_of(size, body_size, static_cast<std::size_t>(2 * patches + 2));
-  auto remaining =
-      loads_of(remaining_error(record.norms, record.functionals, scales, out.relative_residual, orders));
+  auto remaining = loads_of(remaining_error(record.norms, record.functionals, scales, out.relative_residual,
+                                            orders, inherited_error));
   // What is left turns: of a load's parts either may be off by what both are.
   const auto turn = [](Load& real, Load& imaginary) {
     for (int axis = 0; axis < 3; ++axis) {
@@ -133,8 +133,8 @@ bool FrequencySolver::solve(const FrequencyProblem& problem, FrequencyResponse& 
       {BlockProblem{problem.name, basis_.settings.orders, problem.guess, shifted.source_norm()}},
       basis_.settings, basis_.go_on);
   if (!way.solve()) return false;
-  out = response_of(basis_.settings.orders, std::move(way.field(0)), way.record(0), way.iterations(),
-                    basis_.body_size, basis_.iteration.communicator());
+  out = response_of(basis_.settings.orders, problem.inherited_error, std::move(way.field(0)), way.record(0),
+                    way.iterations(), basis_.body_size, basis_.iteration.communicator());
   return true;
 }
 

@@ -25,6 +25,7 @@ struct FrequencyProblem {
   /// What the solution is looked for from, real part and then imaginary one, [2 owned_cells]; or empty for
   /// zero.
   std::span<const Primitive<Real>> guess = {};
+  Real inherited_error = 0;  ///< relative, of the flow that the problem is about
 };
 
 struct FrequencyResponse {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <set>
 
 #include "core/error.hpp"
 #include "derivatives/flight_variables.hpp"
@@ -71,6 +72,8 @@ Functional parse_functional(std::string_view name, const std::string& where, con
   out.coefficient = static_cast<int>(found - coefficient_names.begin());
   out.rates = static_cast<int>(rates - suffixes.begin());
   if (at < name.size()) out.patches = split(name.substr(at + 1), '+');
+  if (std::set<std::string>(out.patches.begin(), out.patches.end()).size() != out.patches.size())
+    throw InputError(where, 0, fmt::format("{} names a wall twice", name), "name each once");
   for (const auto& patch : out.patches) {
     const auto kind = boundary.find(patch);
     if (kind == boundary.end() || kind->second != BoundaryKind::wall)

@@ -111,8 +111,6 @@ bool solve_all(const FlowCase& flow, SensitivitySolver& solver, Responses& respo
 /// For what a step of Newton's method leaves to the next, also of a component that it happens not to move:
 /// shown to hold from one decade on.
 constexpr Real step_safety = 2, of_other_components = 0.3;
-/// Decades by which a derivative may be worse converged than the flow that it is about.
-constexpr Real lost_decades = 3;
 
 /// What is large beside a column of derivatives. Forces and moments count alike with an arm between them that
 /// is the body's size, `arm` reference lengths, so that no choice of these matters.
@@ -191,7 +189,7 @@ class Estimation {
     const auto whole = column_of(variable, responses_.at({variable}), {}, settings);
     Coefficients out;
     if (nearer_.empty()) {
-      out = std::pow(10.0, lost_decades - flow_.steady_orders()) * largest_of(change({}, whole), arm_);
+      out = steady_error(flow_.steady_orders()) * largest_of(change({}, whole), arm_);
     } else {
       const auto& better = nearer_.at({variable});
       const auto largest = largest_of(change(whole, column_of(variable, better, {}, settings)), arm_);
@@ -220,6 +218,11 @@ std::vector<ComponentDerivatives> component_derivatives(const FlowCase& flow, co
 }
 
 }  // namespace
+
+Real steady_error(Real steady_orders) {
+  constexpr Real lost_decades = 3;  // by which a derivative may be worse converged than its flow
+  return std::pow(10.0, lost_decades - steady_orders);
+}
 
 std::string shortfall_of_solve(std::string_view what, Real relative_residual, int iterations, Real orders) {
   if (relative_residual <= std::pow(10.0, -orders)) return {};

@@ -52,6 +52,10 @@ struct LinearDerivatives {
 LinearDerivatives linear_derivatives(FlowCase& flow, Responses& responses,
                                      const SolveObserver& observer = {});
 
+/// Share of what is large in a response by which it may be off since the steady flow is so many decades down,
+/// six or more: a bound.
+Real steady_error(Real steady_orders);
+
 /// Why a solve for `what` that dropped by this much in so many iterations falls short of the decades asked
 /// for; empty when it does not.
 std::string shortfall_of_solve(std::string_view what, Real relative_residual, int iterations, Real orders);

@@ -275,7 +275,7 @@ class ShapeTranspose {
     const Vec3 x = domain_.points[point], lambda = discretization_.point_moments(point).lambda;
     Primitive<Real> mean{};
     Real weights = 0, largest = 0;
-    Vec3 first, farthest;
+    Vec3 first;
     Symmetric3 second{};
     for (const Index cell : cells) {
       const Vec3 d = domain_.center[cell] - x;
@@ -284,9 +284,7 @@ class ShapeTranspose {
       weights += 1 + correction;
       first += d;
       add_square(second, d);
-      if (std::abs(correction) < largest) continue;
-      largest = std::abs(correction);
-      farthest = d;
+      largest = std::max(largest, std::abs(correction));
     }
     if (norm(lambda) == 0) return;  // the plain mean
     for (int i = 0; i < 5; ++i) mean[i] /= weights;
@@ -301,14 +299,23 @@ class ShapeTranspose {
     const Symmetric3 inverse_second = inverse(second);
     const Vec3 uncut = -(inverse_second * first);
     const Real kept = norm(lambda) / norm(uncut);
+    constexpr Real tie = 1e-9;
     const bool is_cut = kept < 1 - 1e-12;
-    const Real by_largest = is_cut ? dot(by_lambda, lambda) / dot(lambda, farthest) : 0;
-    const Vec3 by_moments = kept * (inverse_second * (by_lambda - by_largest * farthest));
+    const auto cuts = [&](const Vec3& d) { return is_cut && std::abs(dot(lambda, d)) > largest * (1 - tie); };
+    Real ties = 0;
+    Vec3 by_cut;  // by the larger |lambda . d| of the cells that cut
+    for (const Index cell : cells)
+      if (const Vec3 d = domain_.center[cell] - x; cuts(d)) {
+        ties += 1;
+        by_cut += (dot(by_lambda, lambda) / dot(lambda, d)) * d;
+      }
+    if (ties > 0) by_cut = (1 / ties) * by_cut;
+    const Vec3 by_moments = kept * (inverse_second * (by_lambda - by_cut));
     for (const Index cell : cells) {
       const Vec3 d = domain_.center[cell] - x;
       Vec3 by_distance =
           by_weight(cell) * lambda - (1 + dot(uncut, d)) * by_moments - dot(by_moments, d) * uncut;
-      if (is_cut && norm(d - farthest) == 0) by_distance -= by_largest * lambda;
+      if (cuts(d)) by_distance -= (dot(by_lambda, lambda) / (ties * dot(lambda, d))) * lambda;
       points_.add_center(cell, by_distance);
       points_.add_point(point, -by_distance);
     }

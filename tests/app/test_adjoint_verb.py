@@ -51,6 +51,12 @@ class AdjointTest(unittest.TestCase):
         for name in ("CN_alpha", "CN_q", "CN_mach"):  # there is no other wall
             self.assertAlmostEqual(adjoint[f"{name}@wall"], adjoint[name], delta=AS_ONE * abs(adjoint[name]))
 
+    def test_what_the_steady_residual_leaves_is_in_the_uncertainty(self) -> None:
+        self.run_ok("adjoint", "shallow", *EXACT, "--set", "steady.orders=6", "--of", "CN,Cm,Cl,Cm_alphadot")
+        exact = self.derivatives("adjoint")
+        for name, entry in self.result("shallow")["derivatives"].items():
+            self.assertLessEqual(abs(entry["value"] - exact[name]), entry["uncertainty"], name)
+
     # Steady runs a little above and below; the step leaves errors of 1e-8 of truncation and 1e-7 of convergence.
     def test_gives_those_by_mach_number_and_gas(self) -> None:
         found = self.derivatives("adjoint")
@@ -122,6 +128,7 @@ class AdjointTest(unittest.TestCase):
         for arguments, part in (
             (("--of", "Cd"), 'no load "Cd"'),
             (("--of", "Cm_alpha"), 'no load "Cm_alpha"'),
+            (("--of", "CN@wall+wall"), "CN@wall+wall names a wall twice"),
             (("--of", "Cm@farfield"), '"farfield" is no wall'),
             (("--of", "Cl", "--set", "reference.model=half"), "Cl of a half model is zero"),
             (("--set", "steady.scheme=lu_sgs"), "block_lu_sgs"),
@@ -130,6 +137,10 @@ class AdjointTest(unittest.TestCase):
             self.assertEqual(done.codes, [1] * RANKS)
             self.assertEqual(len(done.errors), 1, done.err)
             self.assertIn(part, done.errors[0])
+
+    def test_a_load_asked_for_twice(self) -> None:
+        self.run_ok("adjoint", "twice", *EXACT, "--of", "CN,CN,CN@wall")
+        self.assertEqual({name for name in self.result("twice")["derivatives"] if name.startswith("CN_alpha")}, {"CN_alpha", "CN_alpha@wall"})
 
     def test_says_all_that_is_wrong(self) -> None:
         done = run(self.folder, "adjoint", "case.toml", "--out", "wrong", "--of", "Cm,Cd,CN@nose")
