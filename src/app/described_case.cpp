@@ -11,11 +11,9 @@
 #include <sstream>
 
 #include "app/companion.hpp"
-#include "case_file/case_file.hpp"
 #include "core/error.hpp"
 #include "core/log.hpp"
 #include "core/words.hpp"
-#include "io/toml_text.hpp"
 
 namespace alphadot {
 
@@ -63,55 +61,36 @@ fs::path kept_case(const std::string& description, const std::string& level, con
   return made;
 }
 
-/// The overrides that give a case the mesh made from the description that it names: none where it names none,
-/// or has mistakes, of which others tell.
-std::array<std::string, 2> made_mesh(const CaseArguments& arguments) {
-  const auto& path = arguments.case_file;
-  const auto draft = draft_case(read_case_text(path), path, arguments.overrides);
-  const Case& c = draft.settings;
-  if (!draft.problems.empty() || c.mesh.from.empty()) return {};
-  const auto level = word_of(c.mesh.level);
-  const auto folder = kept_case(c.mesh.from, level, fmt::format("{}", c.freestream.mach),
-                                c.reference.half_model ? "half" : "full")
-                          .parent_path();
-  const auto file = [&](const std::string& name) { return toml_string((folder / (name + ".msh")).string()); };
-  std::array<std::string, 2> out{"mesh.file=" + file(level)};
-  if (c.derivatives.coarser_meshes.empty() && c.mesh.level != Fineness::tiny) {
-    const auto coarser = static_cast<Fineness>(static_cast<int>(c.mesh.level) - 1);
-    out[1] = "derivatives.coarser_meshes=[" + file(word_of(coarser)) + "]";
-  }
-  return out;
-}
-
 }  // namespace
 
-void mesh_description(CaseArguments& arguments, const Communicator& comm) {
-  auto& overrides = arguments.overrides;
-  const auto drop = [&](std::string_view key) {
-    std::erase_if(overrides, [&](const std::string& text) { return text.starts_with(key); });
-  };
+void replace_description(CaseArguments& arguments, const Communicator& comm) {
   std::string made;
-  std::array<std::string, 2> more;
   comm.on_root([&] {
     const auto& file = arguments.case_file;
-    if (file.empty()) return;
-    if (is_description(file))
-      made = kept_case(file, overridden(overrides, "mesh.level").value_or("coarse"),
-                       overridden(overrides, "freestream.mach").value_or(""), "");
-    else
-      more = made_mesh(arguments);
+    if (file.empty() || !is_description(file)) return;
+    made = kept_case(file, overridden(arguments.overrides, "mesh.level").value_or("coarse"),
+                     overridden(arguments.overrides, "freestream.mach").value_or(""), "");
   });
   made = comm.broadcast(made);
-  if (!made.empty()) {
-    arguments.case_file = made;
-    drop("mesh.level=");
-  }
-  for (auto& assignment : more) {
-    assignment = comm.broadcast(assignment);
-    if (assignment.empty()) continue;
-    drop("mesh.from=");
-    overrides.push_back(assignment);
-  }
+  if (made.empty()) return;
+  arguments.case_file = made;
+  std::erase_if(arguments.overrides, [](const std::string& text) { return text.starts_with("mesh.level="); });
+}
+
+void make_mesh(Case& c, const Communicator& comm) {
+  if (c.mesh.from.empty()) return;
+  std::string folder;
+  comm.on_root([&] {
+    folder = kept_case(c.mesh.from, std::string(word_of(c.mesh.level)), fmt::format("{}", c.freestream.mach),
+                       c.reference.half_model ? "half" : "full")
+                 .parent_path();
+  });
+  folder = comm.broadcast(folder);
+  const auto file = [&](Fineness level) { return fmt::format("{}/{}.msh", folder, word_of(level)); };
+  c.mesh.from.clear();
+  c.mesh.file = file(c.mesh.level);
+  if (c.derivatives.coarser_meshes.empty() && c.mesh.level != Fineness::tiny)
+    c.derivatives.coarser_meshes = {file(static_cast<Fineness>(static_cast<int>(c.mesh.level) - 1))};
 }
 
 }  // namespace alphadot

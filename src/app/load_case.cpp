@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "app/described_case.hpp"
 #include "case_file/case_file.hpp"
 #include "core/error.hpp"
 #include "derivatives/setup.hpp"
@@ -22,6 +23,7 @@ Case load_case(const std::string& path, const std::vector<std::string>& override
     }
     throw InputError(std::move(draft.problems));
   });
+  make_mesh(draft.settings, comm);
   return std::move(draft.settings);
 }
 

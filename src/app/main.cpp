@@ -235,7 +235,7 @@ int main(int argc, char** argv) {
   set_up_log(comm.is_root(), quiet);
 
   return guarded(comm, [&] {
-    mesh_description(arguments, comm);
+    replace_description(arguments, comm);
     if (run) return run_verb(arguments, comm);
     if (derivatives) return derivatives_verb(arguments, comm);
     if (adjoint) return adjoint_verb(arguments, loads, comm);
