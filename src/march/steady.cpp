@@ -19,7 +19,7 @@ constexpr Real early_orders = 2;
 constexpr int rescue_iterations = 20;
 constexpr int most_rejections = 6;
 /// The limiter is frozen once the flow has taken shape and so many iterations have not lowered the residual
-/// to this share of the lowest.
+/// to this share of the lowest; not where Newton-Krylov steps are in vain, which are given up instead.
 constexpr int stalled_iterations = 20;
 constexpr Real stalled_orders = 1, little_progress = 0.5;
 /// A march that has not lowered its residual for as many iterations as it took to reach it, and for so many,
@@ -104,7 +104,8 @@ SteadyResult march_to_steady(ImplicitIteration& iteration, const Conditions<Real
   };
   const auto limiter_is_due = [&] {
     const bool stalled = count - lowest_at >= stalled_iterations && orders() >= stalled_orders;
-    return freeze_orders > 0 && rescue == 0 && (orders() >= freeze_orders || stalled);
+    return freeze_orders > 0 && rescue == 0 && krylov != KrylovSteps::taken &&
+           (orders() >= freeze_orders || stalled);
   };
   const auto has_stalled = [&] {
     const int allowed = static_cast<int>(std::min(patience * std::max(Real{1}, bold_cfl / cfl), 1e9));
