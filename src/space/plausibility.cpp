@@ -210,7 +210,7 @@ class Judge {
   /// What no vehicle does, and no linear theory is about.
   void judge_motion() {
     const auto& motion = settings_.motion;
-    if (motion.kind == MotionKind::none) return;
+    if (motion.kind == MotionKind::none && norm(motion.rotation) == 0) return;
     const bool turns = motion.kind != MotionKind::plunge && motion.kind != MotionKind::sway &&
                        motion.kind != MotionKind::step_alpha && motion.kind != MotionKind::ramp_alpha;
     if (const Real lengths = body_lengths_away(motion.axis_point);
@@ -218,7 +218,7 @@ class Judge {
       warn(fmt::format(
           "motion.axis_point is {:.4g} body lengths away from the body: its turning is mostly a plunge",
           lengths));
-    if (motion.kind == MotionKind::table) return;
+    if (motion.kind == MotionKind::none || motion.kind == MotionKind::table) return;
     if (motion.kind != MotionKind::step_q && motion.amplitude > plausible::largest_amplitude)
       warn(
           fmt::format("motion.amplitude = {:g} degrees: derivatives are about small angles, and beyond {:g} "

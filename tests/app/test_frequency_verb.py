@@ -44,6 +44,15 @@ class FrequencyTest(unittest.TestCase):
         both = slow["Cm_q, k = 0.001"]["value"] + slow["Cm_alphadot, k = 0.001"]["value"]
         self.assertAlmostEqual(slow["Cm_q_plus_alphadot, k = 0.001"]["value"], both)
 
+    def test_what_the_steady_residual_leaves_is_in_the_uncertainty(self) -> None:
+        """Of a flow six decades down; against one twelve decades down, by linear solves of the same depth."""
+        for out, orders in (("shallow", 6), ("deep", 12)):
+            words = ("steady.orders=%d" % orders, "derivatives.orders=9", "space.freeze_orders=0")
+            self.run_as(0, "frequency", out, "--k", "0.1,0.5", *(part for word in words for part in ("--set", word)))
+        exact = self.derivatives("deep")
+        for name, entry in self.derivatives("shallow").items():
+            self.assertLessEqual(abs(entry["value"] - exact[name]["value"]), entry["uncertainty"] + exact[name]["uncertainty"], name)
+
     def test_table(self) -> None:
         """Parts sum to the whole; modulus and phase are those of both parts; frequencies in order, each once."""
         self.run_as(0, "frequency", "table", "--k", "0.5,0.1,0.5")

@@ -12,7 +12,7 @@ from pathlib import Path
 
 from runs import CaseInFolder, LiveRun, checkpoints, derivatives, make_case, result, run, settings
 
-FILES = ("derivatives.csv", "derivatives.st", "derivatives.jsbsim.xml", "flow.vtkhdf", "surface.vtkhdf")
+FILES = ("derivatives.csv", "components.csv", "derivatives.st", "derivatives.jsbsim.xml", "flow.vtkhdf", "surface.vtkhdf")
 EVERY = settings(checkpoint_iterations=1, checkpoint_keep=100, derivatives_limiter_uncertainty="true")
 SLOW = settings(derivatives_directions=2, derivatives_orders=12, derivatives_max_iterations=100000, steady_sweeps=1)
 

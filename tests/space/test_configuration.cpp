@@ -394,6 +394,10 @@ TEST(Plausibility, WarnsOfMotionsThatNoVehicleDoes) {
   };
   expect_warning(with(MotionKind::pitch, 1, 0.01, {1e5, 0, 0}),
                  {"motion.axis_point is 1e+05 body lengths away"});
+  auto turning = case_of(false, 1.15);
+  turning.motion.rotation = {0, 0.01, 0};
+  turning.motion.axis_point = {1e5, 0, 0};
+  expect_warning(look(whole_cube(), whole_kinds, turning), {"motion.axis_point is 1e+05 body lengths away"});
   expect_warning(with(MotionKind::plunge, 180, 0.01, {}), {"motion.amplitude = 180 degrees"});
   // In a period of 2 pi / omega the stream passes pi / k lengths.
   expect_warning(with(MotionKind::plunge, 1, 100, {}),
