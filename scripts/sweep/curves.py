@@ -62,11 +62,8 @@ def pressure_center(point: Point) -> tuple[float, float]:
     """Lengths from the nose; at zero incidence the neutral point, which it tends to."""
     reference = point.result["reference"]
     at = reference["moment_center"][0] / reference["length"]
-    normal = point.coefficients.get("CN", 0.0)
-    if abs(point.alpha) < 1e-6 or not normal:
-        value, error = margin(point)
-        return at + value, error
-    return at - point.coefficients["Cm"] / normal, math.nan
+    value, error = margin(point) if math.isnan(point.pressure_center) else (point.pressure_center, math.nan)
+    return at + value, error
 
 
 STATIC = (

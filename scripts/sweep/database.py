@@ -70,6 +70,12 @@ class Point:
         found = [self.derivatives.get(name) for name in ("CN_alpha", "Cm_alpha")]
         return -found[1].value / found[0].value if all(found) and found[0].value else math.nan
 
+    @property
+    def pressure_center(self) -> float:
+        """Of the normal force, in lengths behind the centre; NaN where there is no incidence or no force to speak of."""
+        force, moment = self.coefficients.get("CN"), self.coefficients.get("Cm")
+        return math.nan if not force or moment is None or abs(self.alpha) < 1e-6 else -moment / force
+
 
 def read_points(sweep: Sweep) -> list[Point]:
     """A point a run, in their order, and then the mirror images that the symmetry of the sweep tells."""

@@ -52,6 +52,6 @@ def block(grid: Grid, mach: float, beta: float, names: tuple[str, ...] | list[st
             c, s = math.cos(math.radians(alpha)), math.sin(math.radians(alpha))
             normal, axial = point.coefficients["CN"], point.coefficients["CA"]
             values += [normal * c - axial * s, normal * s + axial * c]
-            values.append(-point.coefficients["Cm"] / normal if abs(alpha) > 1e-6 and normal else point.static_margin)
+            values.append(point.static_margin if math.isnan(point.pressure_center) else point.pressure_center)
         out.append(f"{alpha:13.3f}" + "".join(f"{value:13.5g}" if math.isfinite(value) else f"{'-':>13}" for value in values))
     return out

@@ -106,17 +106,20 @@ def table_one_tables(results: Results) -> list[Table]:
     return tables
 
 
+def with_uncertainties(entry: Entry, names: list[str]) -> list[Cell]:
+    """Mach number, incidence, and each derivative with its uncertainty behind it."""
+    found = entry.result["derivatives"]
+    cells: list[Cell] = [entry.mach, entry.run.alpha]
+    for name in names:
+        cells += [found[name]["value"], found[name]["uncertainty"]] if name in found else [None, None]
+    return cells
+
+
 def derivative_table(results: Results) -> Table:
     """Every derivative of the moment and the normal force, about the centre of the run."""
     names = ["CN_alpha", "Cm_alpha", "CN_alphadot", "Cm_alphadot", "CN_q", "Cm_q"]
     columns = ["Mach", "alpha, deg", *(word for name in names for word in (name, "±")), "centre x, d", "run"]
-    rows = []
-    for entry in results.with_derivatives:
-        found = entry.result["derivatives"]
-        cells: list[Cell] = [entry.mach, entry.run.alpha]
-        for name in names:
-            cells += [found[name]["value"], found[name]["uncertainty"]] if name in found else [None, None]
-        rows.append([*cells, results.here(entry).center, entry.label])
+    rows = [[*with_uncertainties(entry, names), results.here(entry).center, entry.label] for entry in results.with_derivatives]
     formats = [".4g", ".4g", *[".3f", ".1g"] * 2, *[".2f", ".1g"] * 4, "g", ""]
     return Table(
         "derivatives",
@@ -133,13 +136,7 @@ def side_table(results: Results) -> Table:
     """Derivatives of the side of full models."""
     names = [name for name in SIDE if any(name in entry.result["derivatives"] for entry in results.with_derivatives)]
     columns = ["Mach", "alpha, deg", *(word for name in names for word in (name, "±")), "run"]
-    rows = []
-    for entry in results.with_derivatives:
-        found = entry.result["derivatives"]
-        cells: list[Cell] = [entry.mach, entry.run.alpha]
-        for name in names:
-            cells += [found[name]["value"], found[name]["uncertainty"]] if name in found else [None, None]
-        rows.append([*cells, entry.label])
+    rows = [[*with_uncertainties(entry, names), entry.label] for entry in results.with_derivatives]
     formats = [".4g", ".4g", *[".3g", ".1g"] * len(names), ""]
     joined = set(range(3, 2 + 2 * len(names), 2))
     caption = "Derivatives of the side, per rad; rates times length / 2V"

@@ -83,11 +83,10 @@ def provenance(points: list[Point]) -> Columns:
 
 def x_cp(point: Point) -> float | None:
     """Centre of pressure, in the mesh's unit; None where there is no normal force to speak of."""
-    force, moment = point.coefficients.get("CN"), point.coefficients.get("Cm")
-    if not force or moment is None or abs(point.alpha) < 1e-6:
+    if math.isnan(point.pressure_center):
         return None
     reference = point.result["reference"]
-    return reference["moment_center"][0] - reference["length"] * moment / force
+    return reference["moment_center"][0] + reference["length"] * point.pressure_center
 
 
 def number(value: float) -> float | None:
