@@ -83,14 +83,16 @@ FolderLock::FolderLock(const std::string& folder) : path_((fs::path(folder) / ".
   const auto cannot_be_written = [&](const std::string& reason) {
     refuse("the folder of the run cannot be written: " + reason);
   };
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error) cannot_be_written(error.message());
-  if (!fs::is_directory(folder, error)) cannot_be_written("it is not a folder");
   // Of a run that was killed a moment ago, some rank may not be gone yet.
   const auto patience = std::chrono::steady_clock::now() + std::chrono::seconds(3);
   while (fd_ < 0) {
+    std::error_code error;
+    is_made_here_ |= fs::create_directories(folder, error);
+    if (error) cannot_be_written(error.message());
+    if (!fs::is_directory(folder, error)) cannot_be_written("it is not a folder");
     const int fd = open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+    // The folder may be gone again with the one before, who made it and left it empty.
+    if (fd < 0 && errno == ENOENT && std::chrono::steady_clock::now() < patience) continue;
     if (fd < 0) cannot_be_written(std::strerror(errno));
     const bool is_taken = flock(fd, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
     // The one before removes its file: a lock on that is none on the file that is there now.
@@ -110,6 +112,7 @@ FolderLock::FolderLock(const std::string& folder) : path_((fs::path(folder) / ".
 
 FolderLock::~FolderLock() {
   unlink(path_.c_str());
+  if (is_made_here_) rmdir(fs::path(path_).parent_path().c_str());  // fails where something is in it
   close(fd_);
 }
 

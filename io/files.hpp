@@ -26,6 +26,7 @@ class FolderLock {
  private:
   std::string path_;
   int fd_ = -1;
+  bool is_made_here_ = false;
 };
 
 /// The content of a regular file of at most `most_bytes`; `what` it is for messages, "case file". Throws

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 
 GAMMA = 1.4
@@ -21,6 +22,11 @@ class Longitudinal:
     Cm_q: float
     CN_alphadot: float
     Cm_alphadot: float
+
+    @classmethod
+    def of(cls, derivatives: Mapping[str, float]) -> Longitudinal:
+        """Those among others."""
+        return cls(**{name: derivatives[name] for name in cls.__dataclass_fields__})
 
     def about(self, dx: float) -> Longitudinal:
         """The same about a centre, which is also the axis of rotation, `dx` reference lengths further aft."""

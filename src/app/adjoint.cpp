@@ -27,9 +27,10 @@ std::vector<Functional> functionals_of(const std::vector<std::string>& names, co
   if (names.empty()) return all_functionals(settings);
   std::vector<Functional> out;
   std::vector<Problem> problems;
+  const auto components = components_of(settings);
   for (const auto& name : names)
     collect(problems, [&] {
-      auto functional = parse_functional(name, "--of", settings, settings.boundary);
+      auto functional = parse_functional(name, "--of", settings, components);
       if (std::ranges::find(out, functional.name(), &Functional::name) == out.end())
         out.push_back(std::move(functional));
     });
@@ -99,10 +100,10 @@ void write_surface_sensitivity(const CaseRun& run, AdjointDerivatives& solver, c
 RunStatus adjoint_verb(const CaseArguments& arguments, const std::vector<std::string>& of,
                        const Communicator& comm) {
   const SignalListener signals;
-  CaseRun run(load_case(arguments.case_file, arguments.overrides, comm), arguments, "adjoint", comm);
-  const Case& settings = run.settings();
+  const Case settings = load_case(arguments.case_file, arguments.overrides, comm);
   check_has_transpose(settings);
   const auto functionals = functionals_of(of, settings);
+  CaseRun run(settings, arguments, "adjoint", comm);
   run.check_not_in_motion();
   auto& record = run.record();
   record.announce();

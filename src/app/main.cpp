@@ -150,7 +150,7 @@ int main(int argc, char** argv) {
   add_case_arguments(adjoint, arguments);
   adjoint
       .add_option("--of", loads,
-                  "Loads, e.g. Cm,CN,Cm_alphadot or CN@fin_1+fin_2 of some walls (default: all coefficients)")
+                  "Loads, e.g. Cm,CN,Cm_alphadot or CN@fin_1+fin_2 of some walls or sets (default: all coefficients)")
       ->type_name("LOADS")
       ->delimiter(',');
   const auto* adjoint_restart = add_run_arguments(adjoint, arguments);

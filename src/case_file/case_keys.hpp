@@ -42,7 +42,7 @@ struct CaseKey {
 /// Of the motion, of a march, between checkpoints.
 inline constexpr int most_steps = 100'000'000;
 
-/// Every key, table by table. To add one: a member of its room's settings and a line in case_keys.cpp.
+/// Every key, table by table. To add one: a member of its folder's settings and a line in case_keys.cpp.
 const std::vector<CaseKey>& case_keys();
 
 /// The key that `path` belongs to, or null.

@@ -1,5 +1,5 @@
-// The words by which files and people name the alternatives of an enumeration; each room has those of its
-// own.
+// The words by which files and people name the alternatives of an enumeration; each folder has those of
+// its own.
 #pragma once
 
 #include <optional>

@@ -90,13 +90,13 @@ class AdjointOperator {
 };
 
 /// The largest sensitivity to a velocity, by which that to a rotation about a point of the body is taken to
-/// be at least a quarter of the body's size larger; and to anything else as large.
+/// be at least moment_arm of the body's size larger; and to anything else as large.
 std::vector<Real> scales_of(std::span<const Real> products, Real body_size) {
-  constexpr Real arm = 0.25;
   const auto size = [&](std::size_t begin) {
     return std::hypot(products[begin], products[begin + 1], products[begin + 2]);
   };
-  const Real velocity = std::max(size(0), size(3)), rotation = std::max(size(6), arm * body_size * velocity);
+  const Real velocity = std::max(size(0), size(3)),
+             rotation = std::max(size(6), moment_arm * body_size * velocity);
   std::vector<Real> out(6, velocity);
   out.insert(out.end(), 3, rotation);
   for (std::size_t i = numbers_of_change; i < products.size(); ++i)

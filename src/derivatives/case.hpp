@@ -58,6 +58,9 @@ struct CheckpointSettings {
   Real watchdog_minutes = 0;  ///< without an iteration that end a run as hanging; 0: never
 };
 
+/// Walls by the name of what they form together.
+using Components = std::map<std::string, std::vector<std::string>>;
+
 /// A whole case. `boundary` maps the mesh's patch names to their treatment.
 struct Case : FlightCondition {
   std::string title;
@@ -65,7 +68,7 @@ struct Case : FlightCondition {
   MeshSettings mesh;
   std::map<std::string, BoundaryKind> boundary;
   /// Sets of walls whose derivatives are wanted, beside those of each wall by itself.
-  std::map<std::string, std::vector<std::string>> components;
+  Components components;
   std::map<std::string, int> boundary_lines;  ///< where the case file names the patches, for messages
   SpaceSettings space;
   SteadySettings steady;

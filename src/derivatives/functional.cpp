@@ -56,7 +56,7 @@ bool vanishes(int coefficient, const FlightCondition& settings) {
 }
 
 Functional parse_functional(std::string_view name, const std::string& where, const FlightCondition& settings,
-                            const std::map<std::string, BoundaryKind>& boundary) {
+                            const Components& components) {
   Functional out;
   const std::size_t at = std::min(name.find('@'), name.size()), end_of_coefficient = name.find('_');
   const auto coefficient = name.substr(0, std::min(at, end_of_coefficient));
@@ -67,19 +67,22 @@ Functional parse_functional(std::string_view name, const std::string& where, con
     throw InputError(
         where, 0, fmt::format("there is no load \"{}\"", name),
         fmt::format("name any of {}, with _alphadot for its response to the rates of the angles, "
-                    "with @patch or @patch+patch for some of the walls",
+                    "with @wall or @wall+set for some of the walls",
                     fmt::join(coefficient_names, ", ")));
   out.coefficient = static_cast<int>(found - coefficient_names.begin());
   out.rates = static_cast<int>(rates - suffixes.begin());
-  if (at < name.size()) out.patches = split(name.substr(at + 1), '+');
+  if (at < name.size())
+    for (const auto& component : split(name.substr(at + 1), '+')) {
+      const auto walls = components.find(component);
+      if (walls == components.end())
+        throw InputError(where, 0,
+                         fmt::format("\"{}\" is no wall of the case, nor a set of walls", component),
+                         "name patches that [boundary] makes walls, or what stands under [components]; a set "
+                         "there gives a wall whose name has a \"+\" or \",\" another one");
+      out.patches.insert(out.patches.end(), walls->second.begin(), walls->second.end());
+    }
   if (std::set<std::string>(out.patches.begin(), out.patches.end()).size() != out.patches.size())
     throw InputError(where, 0, fmt::format("{} names a wall twice", name), "name each once");
-  for (const auto& patch : out.patches) {
-    const auto kind = boundary.find(patch);
-    if (kind == boundary.end() || kind->second != BoundaryKind::wall)
-      throw InputError(where, 0, fmt::format("\"{}\" is no wall of the case", patch),
-                       "name patches that [boundary] makes walls");
-  }
   if (vanishes(out.coefficient, settings))
     throw InputError(where, 0, fmt::format("{} of a half model is zero", coefficient),
                      "name CA, CN or Cm, or mesh both halves");

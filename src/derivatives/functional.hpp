@@ -1,13 +1,13 @@
 // The functionals that adjoints are solved for: coefficients of the body or of some of its patches.
 #pragma once
 
-#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "analysis/derivatives.hpp"
 #include "derivatives/adjoint.hpp"
+#include "derivatives/part.hpp"
 #include "motion/flight_condition.hpp"
 
 namespace alphadot {
@@ -27,10 +27,10 @@ struct Functional {
 /// Whether symmetry makes a coefficient, by its number, zero.
 bool vanishes(int coefficient, const FlightCondition& settings);
 
-/// From its name. Throws InputError that names `where` when there is no such coefficient or patch, or when
-/// symmetry makes it zero.
+/// From its name, in which sets of walls may stand for their walls. Throws InputError that names `where` when
+/// there is no such coefficient or component, or when symmetry makes it zero.
 Functional parse_functional(std::string_view name, const std::string& where, const FlightCondition& flight,
-                            const std::map<std::string, BoundaryKind>& boundary);
+                            const Components& components);
 
 /// What it takes of the load of every patch; nothing of those that are not its own.
 std::vector<Load> weights_of(const Functional& functional, const std::vector<std::string>& patch_names,

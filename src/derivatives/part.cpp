@@ -4,7 +4,7 @@
 
 namespace alphadot {
 
-std::map<std::string, std::vector<std::string>> components_of(const Case& settings) {
+Components components_of(const Case& settings) {
   auto out = settings.components;
   for (const auto& [patch, kind] : settings.boundary)
     if (kind == BoundaryKind::wall) out[patch] = {patch};

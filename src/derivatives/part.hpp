@@ -14,7 +14,7 @@
 namespace alphadot {
 
 /// The walls of a case by name, each by itself, and the sets of walls that it names.
-std::map<std::string, std::vector<std::string>> components_of(const Case& settings);
+Components components_of(const Case& settings);
 
 /// What the loads of a half model are without its mirror image: coefficients of the walls of the mesh alone.
 FlightCondition of_one_side(FlightCondition settings);

@@ -20,8 +20,12 @@ std::vector<Real> remaining_error(std::span<const Real> norms, std::span<const s
                                   std::span<const Real> scales, Real relative_residual, Real orders,
                                   Real inherited = 0);
 
+/// Arm, in sizes of the body, by which forces count among moments where these are small about the centre
+/// chosen.
+inline constexpr Real moment_arm = 0.25;
+
 /// Scales of the components of loads, the same for all: the size of `total` and, for moments, at least what
-/// its force does on an arm of a quarter of the body's size.
+/// its force does on moment_arm.
 std::vector<Real> scales_of(const Load& total, Real body_size, std::size_t loads);
 
 /// The largest share of its scale that an error is.

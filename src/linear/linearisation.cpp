@@ -54,13 +54,13 @@ Five<Real> by_variable(const Conserved<Dual<N>>& flux, int variable) {
     const auto [area, normal, center] = interior_geometry(domain, face);
     Primitive<Real> wl = flow_[left], wr = flow_[right];
     Face& out = faces_[face];
-    out.share = 0;
+    out.scaling = 0;
     if (discretization_.space().order > 1) {
       const auto l = extrapolated(wl, reconstruction[left], center - domain.center[left]);
       const auto r = extrapolated(wr, reconstruction[right], center - domain.center[right]);
-      out.share = std::min(usable_share(l, wl), usable_share(r, wr));
-      wl += out.share * (l - wl);
-      wr += out.share * (r - wr);
+      out.scaling = std::min(positivity_scaling(l, wl), positivity_scaling(r, wr));
+      wl += out.scaling * (l - wl);
+      wr += out.scaling * (r - wr);
     }
     Number speed = conditions_.face_speed(static_cast<Index>(face), center, normal);
     const FluxModel& model = discretization_.flux();
@@ -88,11 +88,11 @@ void Linearisation::differentiate_boundary(const Reconstruction<Real>& reconstru
     const auto [area, normal, center] = boundary_geometry(domain, i);
     Primitive<Real> w = flow_[face.cell];
     BoundaryFace& out = boundary_faces_[i];
-    out.share = 0;
+    out.scaling = 0;
     if (discretization_.space().order > 1) {
       const auto carried = extrapolated(w, reconstruction[face.cell], center - domain.center[face.cell]);
-      out.share = usable_share(carried, w);
-      w += out.share * (carried - w);
+      out.scaling = positivity_scaling(carried, w);
+      w += out.scaling * (carried - w);
     }
     const auto inside = independent<9>(w);
     Number speed = conditions_.boundary_speed(i, center, normal);

@@ -20,7 +20,7 @@ class Linearisation {
   struct Face {
     Matrix left, right;
     Five<Real> speed;
-    Real share;  ///< of the reconstruction that is used, held
+    Real scaling;  ///< of the reconstruction for positivity, held
   };
   /// The same of a boundary face, by the state inside, the speed of the face and the wind.
   struct BoundaryFace {
@@ -29,7 +29,7 @@ class Linearisation {
     std::array<Five<Real>, 3> wind;
     Five<Real> pressure;  ///< of boundary_pressure() by the state inside
     Real pressure_by_speed;
-    Real share;
+    Real scaling;
   };
 
   /// About a flow and its reconstruction, the ghosts of both current; a limiter frozen in it stays so. Refers

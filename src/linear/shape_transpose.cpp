@@ -9,6 +9,7 @@
 #include "linear/transposed_product.hpp"
 #include "space/corner_slope.hpp"
 #include "space/face_geometry.hpp"
+#include "space/forces_transpose.hpp"
 #include "space/gradient.hpp"
 #include "space/limiter.hpp"
 #include "space/symmetric3.hpp"
@@ -106,14 +107,14 @@ class ShapeTranspose {
   }
 
  private:
-  Primitive<Real> at_face(Index cell, const Vec3& center, Real share) const {
-    return extrapolated(flow_[cell], reconstruction_[cell], share * (center - domain_.center[cell]));
+  Primitive<Real> at_face(Index cell, const Vec3& center, Real scaling) const {
+    return extrapolated(flow_[cell], reconstruction_[cell], scaling * (center - domain_.center[cell]));
   }
-  /// The way there: state + share (face centre - cell centre) . gradient. Returns what is said about the
+  /// The way there: state + scaling (face centre - cell centre) . gradient. Returns what is said about the
   /// face's centre.
-  Vec3 extrapolation(Index cell, const Primitive<Real>& by_state, Real share) {
+  Vec3 extrapolation(Index cell, const Primitive<Real>& by_state, Real scaling) {
     Vec3 by_offset;
-    for (int i = 0; i < 5; ++i) by_offset += (share * by_state[i]) * gradient_of(reconstruction_[cell], i);
+    for (int i = 0; i < 5; ++i) by_offset += (scaling * by_state[i]) * gradient_of(reconstruction_[cell], i);
     points_.add_center(cell, -by_offset);
     return by_offset;
   }
@@ -128,7 +129,8 @@ class ShapeTranspose {
     if (right < domain_.owned_cells) across -= adjoint_[static_cast<std::size_t>(right)];
     const auto& derivatives = linearisation_.faces()[static_cast<std::size_t>(face)];
     const Vec3 center = domain_.face_center[face], area = domain_.face_normal[face];
-    const auto l = at_face(left, center, derivatives.share), r = at_face(right, center, derivatives.share);
+    const auto l = at_face(left, center, derivatives.scaling),
+               r = at_face(right, center, derivatives.scaling);
     const Vec3 flux_by_area = by_area(area, [&](const Vec3& s) {
       const auto [size, normal, at] = face_geometry(s, center);
       return size * product(across, numerical_flux(discretization_.flux(), l, r, normal,
@@ -137,8 +139,8 @@ class ShapeTranspose {
     Vec3 by_center = product(across, derivatives.speed) *
                      speed_by_center(interior_geometry(domain_, static_cast<std::size_t>(face)));
     if (second_order_) {
-      by_center += extrapolation(left, transposed_product(derivatives.left, across), derivatives.share);
-      by_center += extrapolation(right, transposed_product(derivatives.right, across), derivatives.share);
+      by_center += extrapolation(left, transposed_product(derivatives.left, across), derivatives.scaling);
+      by_center += extrapolation(right, transposed_product(derivatives.right, across), derivatives.scaling);
     }
     points_.add_triangle(domain_.face_points[face], flux_by_area, by_center);
   }
@@ -148,7 +150,7 @@ class ShapeTranspose {
     const auto& adjoint = adjoint_[static_cast<std::size_t>(face.cell)];
     const auto& derivatives = linearisation_.boundary_faces()[i];
     const Vec3 center = domain_.boundary_center[i], area = domain_.boundary_normal[i];
-    const auto inside = at_face(face.cell, center, derivatives.share);
+    const auto inside = at_face(face.cell, center, derivatives.scaling);
     const BoundaryKind kind = discretization_.kind_of(face);
     const Real gamma = discretization_.gamma();
     const bool has_load = kind == BoundaryKind::wall && !weights_.empty();
@@ -156,24 +158,22 @@ class ShapeTranspose {
     const auto pressure_at = [&](const Vec3& normal) {
       return boundary_pressure(kind, inside, normal, conditions_.grid.normal_speed(center, normal), gamma);
     };
-    const auto lever = [&](const Vec3& s) {
-      return dot(weight.force, s) + dot(weight.moment, cross(center - moment_center_, s));
-    };
+    const Vec3 arm = center - moment_center_;
     const Vec3 all_by_area = by_area(area, [&](const Vec3& s) {
       const auto [size, normal, at] = face_geometry(s, center);
       const Real speed = conditions_.grid.normal_speed(at, normal), pressure = pressure_at(normal);
       const auto flux = boundary_flux(kind, inside, pressure, conditions_.free_stream, normal, speed, gamma);
-      return size * product(adjoint, flux) + (pressure - 1 / gamma) * lever(s);
+      return size * product(adjoint, flux) + (pressure - 1 / gamma) * pressure_weight(weight, s, arm);
     });
     const Real excess = pressure_at(boundary_geometry(domain_, i).normal) - 1 / gamma;
-    const Real by_pressure = lever(area);
+    const Real by_pressure = pressure_weight(weight, area, arm);
     Vec3 by_center = excess * cross(area, weight.moment) +
                      (product(adjoint, derivatives.speed) + by_pressure * derivatives.pressure_by_speed) *
                          speed_by_center(boundary_geometry(domain_, i));
     if (second_order_)
       by_center += extrapolation(
           face.cell, transposed_product(derivatives.inside, adjoint) + by_pressure * derivatives.pressure,
-          derivatives.share);
+          derivatives.scaling);
     points_.add_triangle(face.points, all_by_area, by_center);
   }
 

@@ -68,9 +68,9 @@ constexpr Index faces_ahead = 16;  // that the memory is asked for
 }  // namespace
 
 template <int N>
-Primitive<Changes<N>> Tangent<N>::at_face(Index cell, const Vec3& face_center, Real share) const {
+Primitive<Changes<N>> Tangent<N>::at_face(Index cell, const Vec3& face_center, Real scaling) const {
   return extrapolated(flow_[cell], reconstruction_[cell],
-                      share * (face_center - discretization_.domain().center[cell]));
+                      scaling * (face_center - discretization_.domain().center[cell]));
 }
 
 template <int N>
@@ -88,8 +88,8 @@ template <int N>
     const Vec3& center = domain.face_center[face];
     const auto& derivatives = linearisation_.faces()[static_cast<std::size_t>(face)];
     Conserved<Changes<N>> flux{};
-    add_product(flux, derivatives.left, at_face(left, center, derivatives.share));
-    add_product(flux, derivatives.right, at_face(right, center, derivatives.share));
+    add_product(flux, derivatives.left, at_face(left, center, derivatives.scaling));
+    add_product(flux, derivatives.right, at_face(right, center, derivatives.scaling));
     values_[static_cast<std::size_t>(left)] += flux;
     if (right < domain.owned_cells) values_[static_cast<std::size_t>(right)] -= flux;
   }
@@ -101,7 +101,7 @@ void Tangent<N>::boundary_faces() {
   for (std::size_t i = 0; i < domain.boundary_faces.size(); ++i) {
     const Index cell = domain.boundary_faces[i].cell;
     const auto& derivatives = linearisation_.boundary_faces()[i];
-    const auto inside = at_face(cell, domain.boundary_center[i], derivatives.share);
+    const auto inside = at_face(cell, domain.boundary_center[i], derivatives.scaling);
     add_product(values_[static_cast<std::size_t>(cell)], derivatives.inside, inside);
     pressures_[i] = {};
     for (int k = 0; k < 5; ++k) pressures_[i] += derivatives.pressure[k] * inside[k];

@@ -48,7 +48,7 @@ class Tangent {
   };
   static Forcing forcing_of(const std::array<ConditionsChange, N>& changes, const Vec3& axis);
 
-  Primitive<Changes<N>> at_face(Index cell, const Vec3& face_center, Real share) const;
+  Primitive<Changes<N>> at_face(Index cell, const Vec3& face_center, Real scaling) const;
   void interior_faces(Index begin, Index end);
   void boundary_faces();
   void force_faces(const Forcing& forcing);

@@ -101,7 +101,7 @@ void TangentTranspose<N>::boundary_faces(const Weights& weights) {
     auto inside = transposed_product(derivatives.inside, adjoints_[cell]);
     const Changes<N> pressure = pressure_weights(i, weights);
     for (int k = 0; k < 5; ++k) inside[k] += derivatives.pressure[k] * pressure;
-    add_extrapolated(inside, derivatives.share * (domain.boundary_center[i] - domain.center[cell]),
+    add_extrapolated(inside, derivatives.scaling * (domain.boundary_center[i] - domain.center[cell]),
                      states_[static_cast<std::size_t>(cell)], reconstruction_[cell]);
   }
 }
@@ -131,7 +131,7 @@ template <int N>
       const auto& derivatives = linearisation_.faces()[static_cast<std::size_t>(face)];
       const auto at_face =
           transposed_product(sides.left == cell ? derivatives.left : derivatives.right, across(sides));
-      add_extrapolated(at_face, derivatives.share * (domain.face_center[face] - domain.center[cell]), state,
+      add_extrapolated(at_face, derivatives.scaling * (domain.face_center[face] - domain.center[cell]), state,
                        gradient);
     }
     states_[static_cast<std::size_t>(cell)] = state;

@@ -5,6 +5,11 @@
 
 namespace alphadot {
 
+/// What a unit of pressure on `area`, `arm` from the centre of moments, adds to weight . load.
+inline Real pressure_weight(const Load& weight, const Vec3& area, const Vec3& arm) {
+  return dot(weight.force, area) + dot(weight.moment, cross(arm, area));
+}
+
 /// What a unit of pressure on a boundary face adds to the sum over patches of weight . load, `weights` being
 /// those of every patch: the transpose of wall_loads().
 inline Real pressure_weight(const Discretization& discretization, std::size_t face,
@@ -12,9 +17,8 @@ inline Real pressure_weight(const Discretization& discretization, std::size_t fa
   const Subdomain& domain = discretization.domain();
   const auto& at = domain.boundary_faces[face];
   if (discretization.kind_of(at) != BoundaryKind::wall) return 0;
-  const Load& weight = weights[static_cast<std::size_t>(at.patch)];
-  const Vec3& area = domain.boundary_normal[face];
-  return dot(weight.force, area) + dot(weight.moment, cross(domain.boundary_center[face] - center, area));
+  return pressure_weight(weights[static_cast<std::size_t>(at.patch)], domain.boundary_normal[face],
+                         domain.boundary_center[face] - center);
 }
 
 }  // namespace alphadot

@@ -10,11 +10,12 @@
 
 namespace alphadot {
 
-/// Share of a reconstruction that a face may use: all of it while the state on the face keeps a fifth of the
-/// cell's density and pressure, in proportion below, none of it at vacuum. A limiter that is not frozen
-/// leaves every face more than that. Continuous, so that a march can come to rest at such a face.
+/// By which the reconstruction at a face is scaled to keep density and pressure positive: 1 while the state
+/// on the face keeps a fifth of the cell's density and pressure, in proportion below, 0 at vacuum. A limiter
+/// that is not frozen leaves every face more than that. Continuous, so that a march can come to rest at such
+/// a face.
 template <class T>
-T usable_share(const Primitive<T>& face, const Primitive<T>& cell) {
+T positivity_scaling(const Primitive<T>& face, const Primitive<T>& cell) {
   constexpr Real kept = 0.2;
   if (face[0] >= kept * cell[0] && face[4] >= kept * cell[4]) return T(1);
   const T density = face[0] / cell[0], pressure = face[4] / cell[4];

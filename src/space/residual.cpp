@@ -37,8 +37,8 @@ Primitive<T> Residual<T>::face_state(const FlowField<T>& flow, Index cell, const
   if (order == 1) return flow[cell];
   const auto state =
       extrapolated(flow[cell], reconstruction_[cell], face_center - discretization_.domain().center[cell]);
-  const T share = usable_share(state, flow[cell]);
-  return flow[cell] + share * (state - flow[cell]);
+  const T scaling = positivity_scaling(state, flow[cell]);
+  return flow[cell] + scaling * (state - flow[cell]);
 }
 
 namespace {
@@ -129,11 +129,11 @@ void Residual<T>::interior_faces(const FlowField<T>& flow, const Conditions<T>& 
       if (order > 1) {
         const auto l = extrapolated(wl, reconstruction_[left], center - domain.center[left]);
         const auto r = extrapolated(wr, reconstruction_[right], center - domain.center[right]);
-        const T of_left = usable_share(l, wl), of_right = usable_share(r, wr);
-        const T share = of_left < of_right ? of_left : of_right;
-        if (share < T(1)) {
-          wl += share * (l - wl);
-          wr += share * (r - wr);
+        const T of_left = positivity_scaling(l, wl), of_right = positivity_scaling(r, wr);
+        const T scaling = of_left < of_right ? of_left : of_right;
+        if (scaling < T(1)) {
+          wl += scaling * (l - wl);
+          wr += scaling * (r - wr);
           if (lane < count) ++positivity_faces_;
         } else {
           wl = l;

@@ -139,7 +139,8 @@ class AdjointTest(unittest.TestCase):
             self.assertIn(part, done.errors[0])
 
     def test_a_load_asked_for_twice(self) -> None:
-        self.run_ok("adjoint", "twice", *EXACT, "--of", "CN,CN,CN@wall")
+        """Also by the name of a set of walls, which stands for them."""
+        self.run_ok("adjoint", "twice", *EXACT, "--set", 'components.all=["wall"]', "--of", "CN,CN,CN@wall,CN@all")
         self.assertEqual({name for name in self.result("twice")["derivatives"] if name.startswith("CN_alpha")}, {"CN_alpha", "CN_alpha@wall"})
 
     def test_says_all_that_is_wrong(self) -> None:

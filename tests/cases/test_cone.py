@@ -11,7 +11,7 @@ from pathlib import Path
 
 import numpy as np
 
-from exact import CASES, MESHES, ExactCase, cone_derivatives, run, table
+from exact_case import CASES, MESHES, ExactCase, cone_derivatives, run, table
 
 sys.path[:0] = [str(CASES / "sharp_cone"), str(CASES.parent / "scripts")]
 import compare

@@ -7,7 +7,7 @@ import tempfile
 import unittest
 from pathlib import Path
 
-from exact import ExactCase, cone_derivatives, run
+from exact_case import ExactCase, cone_derivatives, run
 
 
 class Motion(ExactCase):

@@ -8,7 +8,7 @@ import tempfile
 import unittest
 from pathlib import Path
 
-from exact import ExactCase, run, table
+from exact_case import ExactCase, run, table
 
 # Twice the chord times the width of the slab, which shrinks with the cells as cases/diamond/mesh.py makes it.
 AREA = {"tiny": 0.18, "coarse": 0.045}

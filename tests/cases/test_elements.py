@@ -16,7 +16,9 @@ from pathlib import Path
 
 import gmsh
 
-from exact import ExactCase, cone_derivatives, run, table
+from exact_case import ExactCase, cone_derivatives, run, table
+
+from exact import Longitudinal
 
 NAMES = ("CN_alpha", "CN_q", "Cm_q", "CN_alphadot", "Cm_alphadot")
 KINDS = ("hexahedra", "prisms", "tetrahedra")
@@ -123,18 +125,6 @@ def make_mesh(body: Body, kind: str, path: Path) -> float:
     return width
 
 
-def about_apex(d: dict[str, float], x: float) -> dict[str, float]:
-    """From x moved there, where nothing is a small difference: as in test_wedge.py."""
-    static = d["Cm_alpha"] - x * d["CN_alpha"]
-    return {
-        "CN_alpha": d["CN_alpha"],
-        "CN_q": d["CN_q"] + 2.0 * x * d["CN_alpha"],
-        "Cm_q": d["Cm_q"] - x * d["CN_q"] + 2.0 * x * static,
-        "CN_alphadot": d["CN_alphadot"],
-        "Cm_alphadot": d["Cm_alphadot"] - x * d["CN_alphadot"],
-    }
-
-
 class Elements(ExactCase):
     def setUp(self) -> None:
         temporary = tempfile.TemporaryDirectory()
@@ -157,8 +147,8 @@ class Elements(ExactCase):
             "reference.moment_center": f"[{body.center}, 0, 0]",
         }
         result = run(self.folder / kind, "derivatives", str(case), str(mesh), settings)
-        found = about_apex({name: entry["value"] for name, entry in result["derivatives"].items()}, body.center)
-        exact = about_apex(body.exact, body.center)
+        values = {name: entry["value"] for name, entry in result["derivatives"].items()}
+        found, exact = (Longitudinal.of(d).about(-body.center).as_dict() for d in (values, body.exact))
         return {name: found[name] / exact[name] - 1.0 for name in NAMES}, result["mesh"]["cells"]
 
     def compare(self, body: Body, limit: float) -> None:

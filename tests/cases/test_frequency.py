@@ -15,7 +15,7 @@ import unittest
 from collections.abc import Sequence
 from pathlib import Path
 
-from exact import ExactCase, run
+from exact_case import ExactCase, run
 
 FREQUENCIES = (0.1, 0.2)
 

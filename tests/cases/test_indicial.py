@@ -11,7 +11,7 @@ from pathlib import Path
 
 import numpy as np
 
-from exact import ExactCase, run, table
+from exact_case import ExactCase, run, table
 
 PLATE = table("diamond/reference/exact_indicial_plate.csv")
 STEP = math.radians(0.1)

@@ -8,7 +8,7 @@ import tempfile
 import unittest
 from pathlib import Path
 
-from exact import ExactCase, run, table
+from exact_case import ExactCase, run, table
 
 PLATE = table("diamond/reference/exact_oscillating_plate.csv")
 VARIABLES = ("alpha", "q")  # of the table's rows, in turn

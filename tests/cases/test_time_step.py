@@ -11,7 +11,7 @@ import tempfile
 import unittest
 from pathlib import Path
 
-from exact import ExactCase, run
+from exact_case import ExactCase, run
 
 SETTINGS = {"reference.area": 0.18}
 

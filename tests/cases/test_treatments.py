@@ -10,7 +10,7 @@ import tempfile
 import unittest
 from pathlib import Path
 
-from exact import CASES, MESHES
+from exact_case import CASES, MESHES
 
 SCRIPT = CASES.parent / "scripts" / "treatments.py"
 SETTINGS = {

@@ -7,7 +7,7 @@ import tempfile
 import unittest
 from pathlib import Path
 
-from exact import ExactCase, run, table
+from exact_case import ExactCase, run, table
 
 APEX = next(row for row in table("wedge/reference/exact_wedge_derivatives.csv") if row["axis_x_over_c"] == 0.0)
 # In a time step the wave from the wall crosses one cell. About the apex nothing is a small difference.

@@ -49,5 +49,19 @@ TEST_P(FunctionalTest, LeavesOutWhatSymmetryMakesZero) {
   EXPECT_EQ(names, GetParam() ? half : full);
 }
 
+// A set stands for its walls, beside which none may be named again.
+TEST(Functional, TakesWallsAndSetsOfWalls) {
+  const Components components{{"fin_1", {"fin_1"}}, {"fin_2", {"fin_2"}},         {"body", {"body"}},
+                              {"a+b", {"a+b"}},     {"tail", {"fin_1", "fin_2"}}, {"sum", {"a+b"}}};
+  const auto name = [&](const char* text) {
+    return parse_functional(text, "--of", flight(true), components).name();
+  };
+  EXPECT_EQ(name("CN@tail"), "CN@fin_1+fin_2");
+  EXPECT_EQ(name("Cm_alphadot@body+tail"), "Cm_alphadot@body+fin_1+fin_2");
+  EXPECT_EQ(name("CN@sum"), "CN@a+b");
+  EXPECT_THROW(name("CN@tail+fin_1"), InputError);
+  EXPECT_THROW(name("CN@nose"), InputError);
+}
+
 }  // namespace
 }  // namespace alphadot

@@ -44,11 +44,24 @@ std::size_t entries(const std::string& folder) {
       std::distance(std::filesystem::directory_iterator(folder), std::filesystem::directory_iterator()));
 }
 
-TEST(FolderLock, MakesTheFolderWithItsParentsAndLeavesItEmpty) {
+TEST(FolderLock, MakesTheFolderWithItsParents) {
   const TemporaryFolder folder;
-  { const FolderLock lock(folder / "a/b/c"); }
-  EXPECT_EQ(entries(folder / "a/b/c"), 0u);
+  {
+    const FolderLock lock(folder / "a/b/c");
+    std::ofstream(folder / "a/b/c/result") << "one";
+  }
+  EXPECT_EQ(entries(folder / "a/b/c"), 1u);
   const FolderLock again(folder / "a/b/c");
+}
+
+// A run that was refused leaves nothing behind; what was there before stays.
+TEST(FolderLock, RemovesAnEmptyFolderThatItMade) {
+  const TemporaryFolder folder;
+  { const FolderLock lock(folder / "made"); }
+  EXPECT_FALSE(std::filesystem::exists(folder / "made"));
+  std::filesystem::create_directory(folder / "there");
+  { const FolderLock lock(folder / "there"); }
+  EXPECT_EQ(entries(folder / "there"), 0u);
 }
 
 TEST(FolderLock, HoldsOneFolderForOneOwner) {

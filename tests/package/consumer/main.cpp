@@ -23,7 +23,7 @@ int main(int argc, char** argv) {
   const auto loads = coefficients(flow.steady_report().total, settings);
   Responses responses;
   const auto forward = linear_derivatives(flow, responses).estimated;
-  AdjointDerivatives adjoint(flow, {parse_functional("CN", "", settings, settings.boundary)});
+  AdjointDerivatives adjoint(flow, {parse_functional("CN", "", settings, components_of(settings))});
   Adjoints adjoints;
   adjoint.solve(adjoints);
   std::vector<std::string> shortfalls;

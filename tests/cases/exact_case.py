@@ -9,11 +9,14 @@ import csv
 import json
 import os
 import subprocess
+import sys
 import unittest
 from collections.abc import Sequence
 from pathlib import Path
 
-CASES = Path(__file__).resolve().parents[2] / "cases"
+ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "scripts"))  # exact solutions
+CASES = ROOT / "cases"
 MESHES = Path(os.environ["MESHES"])
 
 
