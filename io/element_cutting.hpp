@@ -16,10 +16,12 @@ namespace alphadot {
 /// then the apex or the opposite side in the same sense.
 enum class Shape { triangle, quadrilateral, tetrahedron, pyramid, prism, hexahedron };
 
+/// Corners of one shape.
 constexpr std::size_t corner_count(Shape shape) {
   constexpr std::array<std::size_t, 6> counts{3, 4, 4, 5, 6, 8};
   return counts[static_cast<std::size_t>(shape)];
 }
+/// For messages: "prisms".
 const char* plural(Shape shape);
 
 /// The triangles of a triangle or quadrilateral, in its sense of rotation: the diagonal starts at the corner

@@ -79,6 +79,8 @@ struct State {
   void index_nodes(const std::vector<GlobalIndex>& tags, std::size_t section);
 };
 
+/// One section each, from the line after its name to its end. All throw InputError with the place in the
+/// file.
 void read_nodes_v2(State& state);
 void read_elements_v2(State& state);
 

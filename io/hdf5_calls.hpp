@@ -42,6 +42,7 @@ Handle without_times(hid_t kind);
 /// Links that make the groups on their way: "total/CA".
 Handle with_groups_on_the_way();
 
+/// A property list for access to a file, which closes all that is open in it and takes no locks.
 Handle access_list();
 
 /// A string type of exactly `size` bytes, without a final NUL.

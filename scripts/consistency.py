@@ -5,7 +5,8 @@ Draws cases over body, Mach number, incidence, flux, limiter, gradient and schem
 q, loads CA, CN and Cm, with central differences of steady flows at a little more and less incidence or rate, which another scheme
 converges and which never freeze the limiter (a flow with frozen factors is another one each time). An entry of a run that says
 "converged" must agree within its printed uncertainty and what the difference itself may be off; a case whose steady flows do not come
-to rest has no reference and is counted as such. Then the same bodies with a defect planted: a march cut short, a linear solve cut
+to rest has no reference and is counted as such. A discrete flow may bend within 1e-7 of a rate (a face that hardly any gas crosses): where
+the difference does not agree, one of flows thirteen decades down with steps a thousand times smaller decides. Then the same bodies with a defect planted: a march cut short, a linear solve cut
 short, a cell nearly without volume. Those must not say "converged", or be right.
 
 Exit code 0 when no promise is broken. Appends each case's rows to consistency.csv in --out as it ends; the same command again goes on
@@ -35,6 +36,7 @@ ALPHA_STEP, Q_STEP = 2e-3, 2e-5  # degrees; reduced rate
 # Steady flows are ten decades down, so that what they leave in a difference is 1e-10 over a step; curvature and kinks of limiter and flux
 # leave more, which the difference with twice the step tells.
 SOLVER_NOISE = 1e-9
+FINER = 1e-3  # steps and noise of the second reference
 
 
 @dataclass(frozen=True)
@@ -80,24 +82,26 @@ def run(program: str, verb: str, case: str, settings: dict[str, object], out: Pa
     return json.loads((out / "result.json").read_text())
 
 
-def slope(program: str, case: str, settings: dict[str, object], variable: str, out: Path) -> dict[str, tuple[float, float]] | None:
+def slope(
+    program: str, case: str, settings: dict[str, object], variable: str, out: Path, finer: float = 1.0
+) -> dict[str, tuple[float, float]] | None:
     """Central difference of each load and how far it may be off; nothing when a flow did not come to rest."""
     loads = {}
     for k in (-2, -1, 1, 2):
-        here = dict(settings)
+        here = settings | {"steady.orders": settings["steady.orders"] - math.log10(finer)}
         if variable == "alpha":
-            here["freestream.alpha"] = settings["freestream.alpha"] + k * ALPHA_STEP
+            here["freestream.alpha"] = settings["freestream.alpha"] + k * ALPHA_STEP * finer
         else:
-            here["motion.rotation"] = f"[0,{k * Q_STEP},0]"
-        found = run(program, "run", case, here, out / f"{variable}{k}")
+            here["motion.rotation"] = f"[0,{k * Q_STEP * finer},0]"
+        found = run(program, "run", case, here, out / f"{variable}{k}_{finer:g}")
         if not found or found["status"] != "converged" or found.get("message"):
             return None
         loads[k] = found["forces"]
-    step = math.radians(ALPHA_STEP) if variable == "alpha" else Q_STEP
+    step = finer * (math.radians(ALPHA_STEP) if variable == "alpha" else Q_STEP)
     result = {}
     for load in LOADS:
         near, far = ((loads[k][load] - loads[-k][load]) / (2 * k * step) for k in (1, 2))
-        result[load] = (near, abs(far - near) + SOLVER_NOISE / step)
+        result[load] = (near, abs(far - near) + finer * SOLVER_NOISE / step)
     return result
 
 
@@ -172,12 +176,17 @@ def check(number: int, program: str, folder: Path, seed: int, defect: str) -> li
         if slopes is None:
             rows.append(base | {"entry": variable, "verdict": "no reference"})
             continue
+        entries = {load: found["derivatives"][f"{load}_{variable}"] for load in LOADS}
+        agrees = lambda load: abs(entries[load]["value"] - slopes[load][0]) <= entries[load]["uncertainty"] + slopes[load][1]
+        word = "holds"
+        if not all(map(agrees, LOADS)) and (finer := slope(program, BODIES[name].case, reference, variable, out, FINER)):
+            slopes, word = finer, "holds beside finer steps"
         for load, (value, doubt) in slopes.items():
-            entry = found["derivatives"][f"{load}_{variable}"]
-            error, allowed = abs(entry["value"] - value), entry["uncertainty"] + doubt
+            entry, holds = entries[load], agrees(load)
+            error = abs(entry["value"] - value)
             rows.append(base | {"entry": f"{load}_{variable}", "value": entry["value"], "difference": value, "error": error,
                                 "printed": entry["uncertainty"], "doubt": doubt,
-                                "verdict": "holds" if error <= allowed else "BROKEN: error beyond the uncertainty"})  # fmt: skip
+                                "verdict": word if holds else "BROKEN: error beyond the uncertainty"})  # fmt: skip
     return rows
 
 

@@ -24,6 +24,7 @@ struct TableRow {
 
 /// What the uncertainties of rows hold: the mesh's part only when it is one of the parts.
 inline constexpr std::string_view solver_only = "solver only; mesh not assessed";
+/// solver_only or nothing, by the parts of the rows.
 std::string uncertainty_scope(std::span<const TableRow> rows);
 
 /// What a table's numbers refer to and how far to be trusted.

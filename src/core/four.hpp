@@ -45,6 +45,7 @@ FourOf<T> times(const FourReals& a, const T& b) {
 template <class T>
 using Four = std::conditional_t<std::is_same_v<T, Real>, FourReals, FourOf<T>>;
 
+/// The same number four times.
 inline FourReals four(Real all) {
   return FourReals{} + all;
 }
@@ -59,6 +60,7 @@ inline void store_four(const FourReals& from, Real* to) {
   std::memcpy(to, &from, sizeof(from));
 }
 
+/// Element by element.
 inline FourReals minimum(const FourReals& a, const FourReals& b) {
   return a < b ? a : b;
 }
@@ -66,6 +68,7 @@ inline FourReals maximum(const FourReals& a, const FourReals& b) {
   return a > b ? a : b;
 }
 
+/// Of the four elements.
 inline Real smallest_of(const FourReals& a) {
   return std::min(std::min(a[0], a[1]), std::min(a[2], a[3]));
 }

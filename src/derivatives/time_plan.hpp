@@ -13,6 +13,7 @@ struct TimePlan {
   int steps;
   InnerTolerance tolerance;
 };
+/// As [unsteady] states it: steps a cycle of a harmonic motion, of another the steps of its duration.
 TimePlan time_plan(const Case& settings, const Motion& motion);
 
 }  // namespace alphadot

@@ -18,22 +18,26 @@ using Primitive = Five<T>;
 template <class T>
 using Conserved = Five<T>;
 
+/// Absolute velocity of the gas, in units of a_inf.
 template <class T>
 constexpr Vec3Of<T> velocity(const Primitive<T>& w) {
   return {w[1], w[2], w[3]};
 }
 
+/// rho E = p / (gamma - 1) + rho u . u / 2.
 template <class T>
 constexpr T total_energy(const Primitive<T>& w, Real gamma) {
   const auto u = velocity(w);
   return w[4] / (gamma - 1) + 0.5 * w[0] * dot(u, u);
 }
 
+/// Conserved from primitive variables.
 template <class T>
 constexpr Conserved<T> conserved(const Primitive<T>& w, Real gamma) {
   return {{w[0], w[0] * w[1], w[0] * w[2], w[0] * w[3], total_energy(w, gamma)}};
 }
 
+/// Primitive from conserved variables; the density must not be zero.
 template <class T>
 constexpr Primitive<T> primitive(const Conserved<T>& u, Real gamma) {
   const T inverse = 1.0 / u[0];
@@ -41,6 +45,7 @@ constexpr Primitive<T> primitive(const Conserved<T>& u, Real gamma) {
   return {{u[0], q.x, q.y, q.z, (gamma - 1) * (u[4] - 0.5 * u[0] * dot(q, q))}};
 }
 
+/// a = sqrt(gamma p / rho), in units of a_inf; NaN at negative pressure.
 template <class T>
 T sound_speed(const Primitive<T>& w, Real gamma) {
   using std::sqrt;

@@ -14,9 +14,9 @@ namespace alphadot {
 /// Change of the conditions that goes with one unit of a flight variable. The free stream turns with the
 /// axes, as in steady rotation.
 struct ConditionsChange {
-  Vec3 wind;           ///< of the free-stream velocity
-  Vec3 grid_velocity;  ///< of the axis point
-  Vec3 rotation;
+  Vec3 wind;           ///< of the free-stream velocity, in units of a_inf
+  Vec3 grid_velocity;  ///< of the axis point, in units of a_inf
+  Vec3 rotation;       ///< angular velocity, a_inf over the unit of the subdomain's lengths
 };
 
 /// Directional derivatives of R(W, conditions) and of the wall loads in N directions at once. What is linear

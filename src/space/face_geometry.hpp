@@ -12,6 +12,7 @@ struct FaceGeometry {
   Vec3 center;
 };
 
+/// From its area vector, which must not be zero.
 inline FaceGeometry face_geometry(const Vec3& area_vector, const Vec3& center) {
   const Real area = norm(area_vector);
   return {area, (1 / area) * area_vector, center};

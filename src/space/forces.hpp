@@ -26,6 +26,7 @@ struct Load {
 std::vector<Real> numbers_of(std::span<const Load> loads);
 /// The way back.
 std::vector<Load> loads_of(std::span<const Real> numbers);
+/// Their sum.
 Load total_of(std::span<const Load> loads);
 
 /// Load of every patch that is a wall (zero for others): integral of (p - p_inf) n, moments about `center`,

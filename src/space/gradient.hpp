@@ -65,7 +65,7 @@ struct PointSums : std::conditional_t<is_change<T>, NoExtrema, Extrema<T>> {
 
 /// Vectors from the corners of a cell to its centroid.
 using Offsets = std::array<Vec3, 4>;
-
+/// Of one cell, in the unit of the mesh.
 inline Offsets offsets_of(const Subdomain& domain, Index cell) {
   Offsets out;
   for (std::size_t corner = 0; corner < out.size(); ++corner)

@@ -24,14 +24,16 @@ struct LimiterSlope {
   std::array<Index, 5> extremum;  ///< the cell whose value gives the bound
 };
 
+/// The factor phi of a limiter at one corner; arguments as in limiter.hpp.
 template <LimiterKind limiter, class T, class E>
-T limited_share(const T& delta, const T& bound, const E& epsilon2) {
+T corner_factor(const T& delta, const T& bound, const E& epsilon2) {
   if constexpr (limiter == LimiterKind::barth_jespersen)
     return barth_jespersen(delta, bound);
   else
     return venkatakrishnan(delta, bound, epsilon2);
 }
 
+/// Density and pressure.
 constexpr bool must_be_positive(int variable) {
   return variable == 0 || variable == 4;
 }
@@ -83,7 +85,7 @@ Primitive<T> limiter_factors(const Discretization& discretization, std::span<con
     const FourReals delta = x * value_of(gradient.along[0][i]) + y * value_of(gradient.along[1][i]) +
                             z * value_of(gradient.along[2][i]);
     const FourReals bound = (delta > 0 ? high : low) - value_of(w[i]);
-    out[i] = std::min(smallest_of(limited_share<limiter>(delta, bound, four(epsilon2[i]))), Real{1});
+    out[i] = std::min(smallest_of(corner_factor<limiter>(delta, bound, four(epsilon2[i]))), Real{1});
     if (must_be_positive(i))
       lowest = std::min(lowest, lowest_ratio<limiter>(delta, value_of(out[i]), value_of(w[i])));
   }
@@ -130,7 +132,7 @@ LimiterSlope limiter_slope(const Discretization& discretization, std::span<const
           at = point;
       Dual<3> bound = extremum_of(at) - w[i], passed = epsilon2[i].v;
       delta.d[0] = bound.d[1] = passed.d[2] = 1;
-      const Dual<3> factor = limited_share<limiter>(delta, bound, passed);
+      const Dual<3> factor = corner_factor<limiter>(delta, bound, passed);
       if (!(factor.v < out.factor[i])) continue;
       out.factor[i] = factor.v;
       out.by_delta[i] = factor.d[0];

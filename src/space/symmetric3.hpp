@@ -10,6 +10,7 @@ struct Symmetric3 {
   Real xx, xy, xz, yy, yz, zz;
 };
 
+/// Matrix times vector.
 inline Vec3 operator*(const Symmetric3& a, const Vec3& b) {
   return {a.xx * b.x + a.xy * b.y + a.xz * b.z, a.xy * b.x + a.yy * b.y + a.yz * b.z,
           a.xz * b.x + a.yz * b.y + a.zz * b.z};
