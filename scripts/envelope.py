@@ -1,10 +1,11 @@
 #!/usr/bin/python3
 """Steady flows over a grid of Mach numbers and incidences by default settings: which reach their decades, and what they cost.
 
-Runs `alphadot run` on every case at every Mach number and incidence, nothing else changed, and appends each to envelope.csv as it ends;
+A description of a missile gets one mesh for the whole grid, of --cells cells, and the case that `alphadot mesh` writes beside it; a case
+file keeps its mesh. Runs `alphadot run` on every case at every Mach number and incidence, nothing else changed, and appends each to envelope.csv as it ends;
 what stands there already is not run again. envelope.md and the standard output have one table a case, in Markdown: iterations and
 processor seconds of the flows that reached their decades, status and decades of the others. Exit code 1 if the share of flows that
-reached them is below --least. Needs nothing but Python.
+reached them is below --least. Descriptions need Debian's python3-gmsh.
 """
 
 from __future__ import annotations
@@ -12,6 +13,7 @@ from __future__ import annotations
 import argparse
 import csv
 import json
+import re
 import subprocess
 import sys
 from concurrent.futures import ThreadPoolExecutor, as_completed
@@ -73,7 +75,26 @@ def march(program: Path, case: Path, mach: float, alpha: float, arguments: argpa
 
 
 def case_name(case: Path) -> str:
-    return f"{case.resolve().parent.name}_{case.stem}"
+    return case.resolve().parent.name
+
+
+def is_description(path: Path) -> bool:
+    return "[[body]]" in path.read_text()
+
+
+def meshed(description: Path, arguments: argparse.Namespace) -> Path:
+    """The case of a description, with a mesh for all Mach numbers and incidences; made once."""
+    folder = arguments.out / "cases" / case_name(description)
+    case = folder / "case.toml"
+    if not case.exists():
+        # The range of incidences stands in the description alone.
+        text = re.sub(r"(?m)^flight *= *\{.*?\}", "", description.read_text())
+        folder.mkdir(parents=True, exist_ok=True)
+        flight = f"flight = {{mach = [{min(arguments.mach):g}, {max(arguments.mach):g}], alpha = {max(1.0, *map(abs, arguments.alpha)):g}}}\n"
+        (folder / "missile.toml").write_text(flight + text)
+        line = ["/usr/bin/python3", ROOT / "scripts" / "mesh.py", folder / "missile.toml", "--cells", str(arguments.cells), "-o", folder]
+        subprocess.run(line, check=True, stdout=subprocess.DEVNULL)
+    return case
 
 
 def read(path: Path) -> list[Flow]:
@@ -101,7 +122,8 @@ def tables(flows: list[Flow]) -> str:
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("cases", type=Path, nargs="+", help="case files; their meshes must suit the Mach numbers")
+    parser.add_argument("cases", type=Path, nargs="+", help="descriptions, or case files whose meshes suit the Mach numbers")
+    parser.add_argument("--cells", type=int, default=40_000, help="of the meshes of descriptions (default: 40000)")
     parser.add_argument("--mach", type=float, nargs="+", default=MACHS)
     parser.add_argument("--alpha", type=float, nargs="+", default=ALPHAS, help="degrees")
     parser.add_argument("--orders", type=float, default=6.0, help="decades to reach (default: 6)")
@@ -112,19 +134,21 @@ def main() -> None:
     parser.add_argument("--out", type=Path, default=Path("runs/envelope"), help="folder (default: runs/envelope)")
     parser.add_argument("--program", type=Path, default=ROOT / "build" / "alphadot")
     arguments = parser.parse_args()
+    arguments.program = arguments.program.absolute()
     for file in (*arguments.cases, arguments.program):
         if not file.exists():
             parser.error(f"there is no {file}")
 
     arguments.out.mkdir(parents=True, exist_ok=True)
+    cases = [meshed(file, arguments) if is_description(file) else file for file in arguments.cases]
     path = arguments.out / "envelope.csv"
     flows = read(path)
     known = {(flow.case, flow.mach, flow.alpha) for flow in flows}
-    wanted = [(case, mach, alpha) for case in arguments.cases for mach in arguments.mach for alpha in arguments.alpha]
+    wanted = [(case, mach, alpha) for case in cases for mach in arguments.mach for alpha in arguments.alpha]
     missing = [one for one in wanted if (case_name(one[0]), *one[1:]) not in known]
     with ThreadPoolExecutor(arguments.jobs) as pool, open(path, "a", newline="") as file:
         writer = csv.DictWriter(file, [field.name for field in fields(Flow)])
-        if not flows:
+        if file.tell() == 0:
             writer.writeheader()
         for done in as_completed(pool.submit(march, arguments.program, *one, arguments) for one in missing):
             flow = done.result()

@@ -73,6 +73,7 @@ RunStatus CaseRun::march() {
   const auto observe = [&](const SteadyProgress& p) {
     if (p.iteration <= latest) {  // the march has begun again
       saved = 0;
+      krylov = p.state.krylov;
       progress_.begin_steady(0);
     }
     latest = p.iteration;

@@ -147,7 +147,9 @@ std::vector<CaseKey> make_keys() {
           "freeze_orders", &SpaceSettings::freeze_orders, NumberValue{.from = 0, .to = 16},
           "decades of residual after which the limiter is frozen, or before where the march stalls; 0: never")
       .key("entropy_fix", &SpaceSettings::entropy_fix, NumberValue{.from = 0, .to = 1},
-           "Harten's delta as a share of the spectral radius");
+           "Harten's delta as a share of the spectral radius")
+      .key("dissipative_lee", &SpaceSettings::dissipative_lee, FlagValue{},
+           "first order and Van Leer's flux in the cells behind walls that face aft, in a supersonic stream");
 
   Table(keys, "steady", &Case::steady)
       .key("scheme", &SteadySettings::scheme, WordValue{words_of<SchemeKind>}, "implicit scheme")

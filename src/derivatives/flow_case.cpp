@@ -13,6 +13,7 @@
 #include "derivatives/loads.hpp"
 #include "linear/block_lu_sgs.hpp"
 #include "linear/lu_sgs.hpp"
+#include "space/lee_cells.hpp"
 
 namespace alphadot {
 
@@ -25,21 +26,28 @@ std::unique_ptr<LinearSolver> make_linear_solver(const Discretization& discretiz
   return std::make_unique<BlockLuSgs>(discretization, comm, settings.sweeps, order);
 }
 
-/// Limits of the CFL number, beside the case's own, for flows that bold steps drive into vacuum (strong
-/// shocks, high incidence); tried one after the other. With the last one the scheme is nearly an explicit
-/// one: it comes to rest slowly, and follows flow that is not steady at all.
-constexpr std::array gentle_limits{1e6, 30.0, 4.0};
+/// Limits of the CFL number for flows that bold steps drive into vacuum. A march that begins again keeps to
+/// the first until the flow has taken shape (blunt noses, strong shocks), then to the others all along (high
+/// incidence). With the last one the scheme is nearly an explicit one: it comes to rest slowly, and follows
+/// flow that is not steady at all.
+constexpr Real early_limit = 8;
+constexpr std::array gentle_limits{30.0, 4.0};
+constexpr std::size_t most_attempts = 1 + gentle_limits.size();
 
 /// Share of the limiter's threshold with which a march that stalls begins again, once: the wake of a base has
 /// no steady state until it is damped enough. Not where so many decades are reached.
 constexpr Real damped_share = 0.25, well_converged = 6;
 
-/// Steps of a march that begins again for the so manieth time.
+/// Of a march that begins again for the so manieth time.
+Real early_cfl_max(std::size_t attempt) {
+  return attempt == 1 ? early_limit : unlimited;
+}
 SteadySettings gentler(SteadySettings settings, std::size_t attempt) {
   if (attempt == 0) return settings;
-  settings.cfl_start = std::min(settings.cfl_start / 10, gentle_limits.at(attempt - 1));
+  const Real limit = attempt == 1 ? early_limit : gentle_limits.at(std::min(attempt, most_attempts) - 2);
+  settings.cfl_start = std::min(settings.cfl_start / 10, limit);
   settings.cfl_growth = std::pow(settings.cfl_growth, 0.4);
-  settings.cfl_max = std::min(settings.cfl_max, gentle_limits.at(attempt - 1));
+  if (attempt > 1) settings.cfl_max = std::min(settings.cfl_max, limit);
   return settings;
 }
 
@@ -76,7 +84,18 @@ FlowCase::FlowCase(Setup setup, const Communicator& comm)
       iteration_(
           discretization_, comm,
           make_linear_solver(discretization_, comm, setup_.settings.steady, pass_order(motion_.wind().x)),
-          setup_.settings.reference.moment_center) {}
+          setup_.settings.reference.moment_center) {
+  if (!settings().space.dissipative_lee || norm(motion_.wind()) <= 1) return;
+  auto cells = lee_cells(discretization_, comm_);
+  const auto owned = cells.begin() + setup_.domain.owned_cells;
+  dissipative_cells_ = comm_.sum(static_cast<GlobalIndex>(std::count(cells.begin(), owned, 1)));
+  if (dissipative_cells_ == 0) return;
+  discretization_.set_dissipative(std::move(cells));
+  spdlog::info(
+      "{} cells behind walls that face aft are of first order, with Van Leer's flux "
+      "(space.dissipative_lee)",
+      dissipative_cells_);
+}
 
 Conditions<Real> FlowCase::conditions() const {
   return steady_conditions(motion_.wind(), settings().motion.axis_point, settings().freestream.gamma,
@@ -103,12 +122,12 @@ RunStatus FlowCase::march(const Observer& observer) {
   };
   const auto march_on = [&] {
     return march_to_steady(iteration_, now, gentler(settings().steady, march_.attempt),
-                           settings().space.order, observe, march_.steady);
+                           settings().space.order, observe, march_.steady, early_cfl_max(march_.attempt));
   };
   if (!goes_on_) begin();
   auto result = march_on();
   while (true) {
-    if (result.status == RunStatus::diverged && march_.attempt < gentle_limits.size()) {
+    if (result.status == RunStatus::diverged && march_.attempt < most_attempts) {
       spdlog::warn("the steady march lost its way in iteration {}: beginning again with gentler steps",
                    result.iterations);
       ++march_.attempt;

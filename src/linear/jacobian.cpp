@@ -52,8 +52,9 @@ void add_time_term(Matrix& diagonal, const Primitive<Real>& w, Real scale, Real 
     const auto [left, right] = domain.faces[face];
     const auto [area, normal, center] = interior_geometry(domain, static_cast<std::size_t>(face));
     const Real speed = conditions.face_speed(face, center, normal);
-    const auto flux = numerical_flux(discretization.flux(), independent<10, float>(flow[left], by_left),
-                                     independent<10, float>(flow[right], by_right), normal, Number(speed));
+    const auto flux =
+        numerical_flux(discretization.flux_of(face), independent<10, float>(flow[left], by_left),
+                       independent<10, float>(flow[right], by_right), normal, Number(speed));
     add_derivative(diagonal[left], flux, by_left, area);
     store_derivative(matrix.right_of(face), flux, by_right, area);
     if (right >= domain.owned_cells) continue;

@@ -63,7 +63,7 @@ Five<Real> by_variable(const Conserved<Dual<N>>& flux, int variable) {
       wr += out.scaling * (r - wr);
     }
     Number speed = conditions_.face_speed(static_cast<Index>(face), center, normal);
-    const FluxModel& model = discretization_.flux();
+    const FluxModel& model = discretization_.flux_of(static_cast<Index>(face));
     out.right = by_state(area * numerical_flux(model, constant<6>(wl), independent<6>(wr), normal, speed));
     speed.d[speed_variable] = 1;
     const auto flux = area * numerical_flux(model, independent<6>(wl), constant<6>(wr), normal, speed);

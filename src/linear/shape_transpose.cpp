@@ -133,7 +133,7 @@ class ShapeTranspose {
                r = at_face(right, center, derivatives.scaling);
     const Vec3 flux_by_area = by_area(area, [&](const Vec3& s) {
       const auto [size, normal, at] = face_geometry(s, center);
-      return size * product(across, numerical_flux(discretization_.flux(), l, r, normal,
+      return size * product(across, numerical_flux(discretization_.flux_of(face), l, r, normal,
                                                    conditions_.grid.normal_speed(at, normal)));
     });
     Vec3 by_center = product(across, derivatives.speed) *

@@ -15,6 +15,8 @@ constexpr Real residual_leap = 5, residual_growth = 1e3;
 /// Iterations between linearisations: while the flow takes shape, and once it changes little.
 constexpr int early_jacobian_age = 4, late_jacobian_age = 10;
 constexpr Real early_orders = 2;
+/// Decades after which the flow of a gentle march has taken shape.
+constexpr Real shaping_orders = 1;
 /// Iterations of first order that follow a rejected step.
 constexpr int rescue_iterations = 20;
 constexpr int most_rejections = 6;
@@ -71,7 +73,7 @@ struct LoadRange {
 SteadyResult march_to_steady(ImplicitIteration& iteration, const Conditions<Real>& conditions,
                              const SteadySettings& settings, int order,
                              const std::function<bool(const SteadyProgress&)>& observer,
-                             const SteadyState& from) {
+                             const SteadyState& from, Real early_cfl_max) {
   const bool resumed = from.iteration > 0;
   const Real round_off = round_off_residual(iteration, conditions);
   const Real freeze_orders = iteration.discretization().space().freeze_orders;
@@ -94,6 +96,11 @@ SteadyResult march_to_steady(ImplicitIteration& iteration, const Conditions<Real
   int jacobian_age = late_jacobian_age;
   int count = from.iteration;
   const auto orders = [&] { return std::log10(first / std::max(report.density_residual, 1e-300)); };
+  const bool is_gentle = early_cfl_max < settings.cfl_max;
+  const auto cfl_max = [&] {
+    const Real made = is_gentle ? std::max(Real{0}, orders() - shaping_orders) : 0;
+    return std::min(settings.cfl_max, early_cfl_max * std::pow(10, made));
+  };
   const auto is_steady = [&] {
     return rescue == 0 && report.physical &&
            (report.density_residual <= round_off || orders() >= settings.orders);
@@ -112,13 +119,13 @@ SteadyResult march_to_steady(ImplicitIteration& iteration, const Conditions<Real
     return count - lowest_at >= std::max(allowed, lowest_at);
   };
   const auto is_slow = [&] {
-    return count >= slow_iterations && orders() * slow_iterations_a_decade < count && rescue == 0 &&
-           order > 1;
+    return count >= slow_iterations && !(is_gentle && orders() < shaping_orders) &&
+           orders() * slow_iterations_a_decade < count && rescue == 0 && order > 1;
   };
   const auto turn_to = [&](KrylovSteps now) {
     krylov = now;
     iteration.use_krylov(krylov == KrylovSteps::taken ? settings.krylov_directions : 0);
-    cfl = std::min(cfl, settings.cfl_max);
+    cfl = std::min(cfl, cfl_max());
     jacobian_age = late_jacobian_age;
     lowest = previous;
     lowest_at = count;
@@ -194,7 +201,7 @@ SteadyResult march_to_steady(ImplicitIteration& iteration, const Conditions<Real
       cfl = std::min(cfl * std::max(settings.cfl_growth, std::min(drop, krylov_growth)),
                      krylov_boldness * settings.cfl_max);
     else
-      cfl = std::min(cfl * settings.cfl_growth, settings.cfl_max);
+      cfl = std::min(cfl * settings.cfl_growth, cfl_max());
     if (rescue > 0 || previous < little_progress * lowest) {
       lowest = previous;
       lowest_at = count;

@@ -2,12 +2,15 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 
 #include "core/run_status.hpp"
 #include "march/implicit_iteration.hpp"
 #include "march/settings.hpp"
 
 namespace alphadot {
+
+inline constexpr Real unlimited = std::numeric_limits<Real>::infinity();
 
 /// Whether a march takes Newton-Krylov steps, or has given them up again.
 enum class KrylovSteps { not_yet, taken, given_up };
@@ -61,6 +64,10 @@ struct SteadyResult {
 /// costs as much as 10 to 20 iterations of the scheme, so that flows which the scheme brings to rest by a
 /// decade in 20 iterations see none. Steps that get nowhere are given up for the scheme alone.
 ///
+/// Where `early_cfl_max` is not unlimited, as for a flow that bold steps have driven into vacuum, the CFL
+/// number stays below it until the residual has dropped by a decade, and then rises with the residual's fall;
+/// Newton-Krylov steps wait for that decade too.
+///
 /// Starts from the flow in `iteration`, or goes on `from` the state that belongs to it.
 ///
 /// There is no start of first order: on the Basic Finner's coarse mesh at Mach 2.5 six decades take 34, 34,
@@ -69,6 +76,6 @@ struct SteadyResult {
 SteadyResult march_to_steady(ImplicitIteration& iteration, const Conditions<Real>& conditions,
                              const SteadySettings& settings, int order,
                              const std::function<bool(const SteadyProgress&)>& observer,
-                             const SteadyState& from = {});
+                             const SteadyState& from = {}, Real early_cfl_max = unlimited);
 
 }  // namespace alphadot

@@ -12,7 +12,8 @@ Discretization::Discretization(const Subdomain& domain, std::vector<BoundaryKind
     : domain_(domain),
       patch_kinds_(std::move(patch_kinds)),
       space_(space),
-      flux_{space.flux, gamma, space.entropy_fix} {
+      flux_{space.flux, gamma, space.entropy_fix},
+      dissipative_flux_{FluxKind::van_leer, gamma, space.entropy_fix} {
   if (patch_kinds_.size() != domain.patch_names.size())
     throw std::logic_error("every patch needs a boundary condition");
   update_geometry();
@@ -56,7 +57,7 @@ void Discretization::update_geometry() {
 
   inverse_fit_.assign(cells, {});
   for (Index cell = 0; cell < domain_.owned_cells; ++cell) {
-    if (impermeable_faces[cell] >= 2) continue;
+    if (impermeable_faces[cell] >= 2 || (has_dissipative_cells() && dissipative_[cell] != 0)) continue;
     Symmetric3 normal_matrix{};
     for (const Index point : domain_.cell_points[cell])
       for (const Index other : domain_.point_cells[point])
@@ -65,8 +66,14 @@ void Discretization::update_geometry() {
   }
 }
 
+void Discretization::set_dissipative(std::vector<std::uint8_t> cells) {
+  dissipative_ = std::move(cells);
+  update_geometry();
+}
+
 std::size_t Discretization::bytes() const {
-  return point_moments_.size() * sizeof(PointMoments) + inverse_fit_.size() * sizeof(Symmetric3);
+  return dissipative_.size() + point_moments_.size() * sizeof(PointMoments) +
+         inverse_fit_.size() * sizeof(Symmetric3);
 }
 
 }  // namespace alphadot

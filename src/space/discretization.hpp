@@ -37,12 +37,24 @@ class Discretization {
 
   /// Recomputes what depends on the metrics, after the mesh has been deformed.
   void update_geometry();
+  /// From now on the marked cells, [total_cells], are dissipative: of first order, with van Leer's flux on
+  /// all their faces.
+  void set_dissipative(std::vector<std::uint8_t> cells);
 
   const Subdomain& domain() const { return domain_; }
   const SpaceSettings& space() const { return space_; }
   /// Lets fewer or more changes pass the limiter than the case says.
   void set_limiter_threshold(Real share) { space_.limiter_threshold = share; }
+  /// Of faces between cells that are not dissipative.
   const FluxModel& flux() const { return flux_; }
+  const FluxModel& dissipative_flux() const { return dissipative_flux_; }
+  const FluxModel& flux_of(Index face) const { return is_dissipative(face) ? dissipative_flux_ : flux_; }
+  bool has_dissipative_cells() const { return !dissipative_.empty(); }
+  /// Whether a cell beside a face between cells is dissipative.
+  bool is_dissipative(Index face) const {
+    const auto [left, right] = domain_.faces[face];
+    return has_dissipative_cells() && (dissipative_[left] != 0 || dissipative_[right] != 0);
+  }
   Real gamma() const { return flux_.gamma; }
   BoundaryKind kind_of(const BoundaryFace& face) const {
     return patch_kinds_[static_cast<std::size_t>(face.patch)];
@@ -54,8 +66,8 @@ class Discretization {
   }
   /// Inverse of the normal matrix of the least-squares fit; zero where the cell stays first order.
   const Symmetric3& inverse_fit(Index cell) const { return inverse_fit_[static_cast<std::size_t>(cell)]; }
-  /// Whether the gradient of a cell is held at zero: two or more faces on walls or symmetry planes leave too
-  /// little to fit.
+  /// Whether the gradient of a cell is held at zero: of a dissipative one, and where two or more faces on
+  /// walls or symmetry planes leave too little to fit.
   bool is_flat(Index cell) const { return inverse_fit(cell).xx == 0; }
 
   std::size_t bytes() const;
@@ -64,7 +76,8 @@ class Discretization {
   const Subdomain& domain_;
   std::vector<BoundaryKind> patch_kinds_;
   SpaceSettings space_;
-  FluxModel flux_;
+  FluxModel flux_, dissipative_flux_;
+  std::vector<std::uint8_t> dissipative_;    // [total_cells] or none
   std::vector<PointMoments> point_moments_;  // [owned_points]
   std::vector<Symmetric3> inverse_fit_;      // [owned_cells]
 };

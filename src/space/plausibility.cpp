@@ -265,8 +265,8 @@ class Judge {
       if (const Real area = facts_.aft_area[patch]; area > plausible::aft_share * facts_.projected_area.x)
         warn(fmt::format(
             "{:.3g} reference areas of the wall \"{}\" face aft, {:.3g} % of what the walls show to the "
-            "stream: an inviscid supersonic flow leaves a vacuum behind a blunt base; make it a patch of "
-            "its own and a \"jet\", or let the body go on to the outflow as a \"sting\"",
+            "stream: inviscid gas does not say how low the pressure on a blunt base is; make it a patch "
+            "of its own and a \"jet\", or let the body go on to the outflow as a \"sting\"",
             area, names_[patch], 100 * area / facts_.projected_area.x));
   }
 

@@ -23,8 +23,8 @@ inline constexpr Real smallest_area = 1e-3, largest_area = 1e3;
 /// Of the moment centre from the body's box, in body lengths: it is on the body or near it, and never farther
 /// than a body is long but by a mistake.
 inline constexpr Real farthest_center = 3;
-/// Share of the walls' frontal projection that may look aft in a supersonic stream. Behind a blunt base of
-/// slip walls the flow expands into a vacuum; less than this is the edge of a fin.
+/// Share of the walls' frontal projection that may look aft in a supersonic stream. Behind a blunt base the
+/// scheme's own dissipation sets the pressure; less than this is the edge of a fin.
 inline constexpr Real aft_share = 0.02;
 inline constexpr Real supersonic_mach = 1.2;
 /// Of a jet's area, what may look ahead: of a base that is not quite plane, little.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <ranges>
 #include <type_traits>
 
 #include "core/prefetch.hpp"
@@ -72,6 +73,12 @@ struct FaceBatch {
     return out;
   }
 
+  /// Takes the flux of one lane from another batch.
+  void take_flux(int lane, const FaceBatch& from) {
+    const auto at = static_cast<std::size_t>(lane);
+    for (std::size_t i = 0; i < 5; ++i) flux[i][at] = from.flux[i][at];
+  }
+
   /// flux = |area| flux_function(left, right, normal, speed), for the compiler to vectorise.
   template <class FluxFunction>
   void evaluate(const FluxFunction& flux_function) {
@@ -104,6 +111,17 @@ struct FaceBatch {
 };
 
 }  // namespace
+
+template <class T>
+template <class Batch>
+void Residual<T>::dissipate(Index first, int count, Batch& batch) {
+  const auto is_dissipative = [&](int lane) { return discretization_.is_dissipative(first + lane); };
+  if (!std::ranges::any_of(std::views::iota(0, count), is_dissipative)) return;
+  Batch other = batch;
+  other.evaluate(discretization_.dissipative_flux());
+  for (int lane = 0; lane < count; ++lane)
+    if (is_dissipative(lane)) batch.take_flux(lane, other);
+}
 
 template <class T>
 void Residual<T>::interior_faces(const FlowField<T>& flow, const Conditions<T>& conditions, int order,
@@ -144,6 +162,7 @@ void Residual<T>::interior_faces(const FlowField<T>& flow, const Conditions<T>& 
       batch.set_face(lane, area, conditions.face_sweep(face, center, area));
     }
     batch.evaluate(discretization_.flux());
+    if (discretization_.has_dissipative_cells()) dissipate(first, count, batch);
     for (int lane = 0; lane < count; ++lane) {
       const auto [left, right] = domain.faces[first + lane];
       const auto flux = batch.flux_of(lane);

@@ -41,6 +41,9 @@ class Residual {
  private:
   void interior_faces(const FlowField<T>& flow, const Conditions<T>& conditions, int order, Index begin,
                       Index end, std::span<Conserved<T>> residual);
+  /// Gives those of some faces beside dissipative cells their flux.
+  template <class Batch>
+  void dissipate(Index first, int count, Batch& batch);
   void boundary_faces(const FlowField<T>& flow, const Conditions<T>& conditions, int order,
                       std::span<Conserved<T>> residual);
   void rotating_axes(const FlowField<T>& flow, const Conditions<T>& conditions,

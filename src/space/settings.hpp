@@ -38,6 +38,9 @@ struct SpaceSettings {
   /// flow that it is frozen at depends on the way there, which one that came to rest does not.
   Real freeze_orders = 16;
   Real entropy_fix = 0.1;  ///< Harten's delta as a share of the spectral radius
+  /// Whether the cells in the lee of walls that face aft are dissipative in a supersonic stream
+  /// (lee_cells.hpp).
+  bool dissipative_lee = true;
 };
 
 }  // namespace alphadot

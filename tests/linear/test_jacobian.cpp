@@ -40,7 +40,8 @@ class Jacobian : public testing::TestWithParam<FluxKind> {
     return operator_.derivative(flow, direction);
   }
 
-  const BoxCase box{small_box(), channel(), {.flux = GetParam(), .order = 1}, Communicator()};
+  const BoxCase box{
+      small_box(), channel(), {.flux = GetParam(), .order = 1}, Communicator(), Dissipative::some};
   const Conditions<Real> conditions{free_stream(Vec3{1.5, 0.1, -0.2}, gamma_air), tumbling_grid()};
   FlowField<Real> flow;
   BlockMatrix matrix;

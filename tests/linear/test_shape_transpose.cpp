@@ -37,7 +37,7 @@ Mesh moved(Mesh mesh, Real share) {
 /// y . R + weights . loads of one flow, given by cell id, on a mesh.
 struct Functional {
   Functional(const SpaceSettings& space, Real share)
-      : box(moved(small_box(), share), all_sides, space, Communicator()),
+      : box(moved(small_box(), share), all_sides, space, Communicator(), Dissipative::some),
         flow(box.domain, box.comm),
         residual(box.discretization, box.comm),
         values(box.cells()),

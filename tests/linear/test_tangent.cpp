@@ -70,7 +70,7 @@ INSTANTIATE_TEST_SUITE_P(Schemes, TangentTest,
 
 /// All three directions at once: flow and conditions, about a grid that moves.
 void expect_central_differences(const SpaceSettings& space, bool limiter_held, Real allowed) {
-  const BoxCase box(small_box(), all_sides, space, Communicator());
+  const BoxCase box(small_box(), all_sides, space, Communicator(), Dissipative::some);
   FlowField<Real> flow(box.domain, box.comm);
   fill(flow, box.domain, rough_state);
   const Vec3 wind{1.5, 0.1, -0.2};

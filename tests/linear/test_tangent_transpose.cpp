@@ -60,7 +60,7 @@ Real product(const ConditionsChange& a, const ConditionsChange& b) {
 /// A linearisation about the rough flow and a grid that tumbles, or rests.
 struct Linearised {
   Linearised(const SpaceSettings& space, bool tumbles)
-      : box(small_box(), all_sides, space, Communicator()),
+      : box(small_box(), all_sides, space, Communicator(), Dissipative::some),
         flow(box.domain, box.comm),
         conditions{free_stream(wind, gamma_air), tumbles ? tumbling_grid() : GridMotion<Real>{}, wind},
         residual(box.discretization, box.comm) {

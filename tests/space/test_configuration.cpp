@@ -9,35 +9,13 @@
 #include <vector>
 
 #include "derivatives/case.hpp"
-#include "partition/face_matching.hpp"
 #include "space/plausibility.hpp"
-#include "support/box_mesh.hpp"
+#include "support/cube_mesh.hpp"
 
 namespace alphadot {
 namespace {
 
-/// The box `outside` without the cubes between `lower` and `upper`, whose surface is the patch "body".
-Mesh around_a_cube(const testing_support::BoxSettings& outside, const Vec3& lower, const Vec3& upper) {
-  Mesh mesh = testing_support::box_mesh(outside);
-  const auto is_inside = [&](const auto& ids) {
-    Vec3 center;
-    for (const GlobalIndex id : ids) center += 1.0 / static_cast<Real>(ids.size()) * mesh.points[id];
-    bool out = true;
-    for (int d = 0; d < 3; ++d) out &= lower[d] - 1e-9 < center[d] && center[d] < upper[d] + 1e-9;
-    return out;
-  };
-  std::erase_if(mesh.cells, is_inside);
-  for (auto& patch : mesh.patches) std::erase_if(patch.triangles, is_inside);
-  std::vector<std::array<GlobalIndex, 3>> triangles;
-  for (const auto& patch : mesh.patches)
-    triangles.insert(triangles.end(), patch.triangles.begin(), patch.triangles.end());
-  Patch body{"body", {}};
-  for_each_face<GlobalIndex>(mesh.cells, triangles, mesh.points.size(), [&](std::span<const Index> sides) {
-    if (sides.size() == 1) body.triangles.push_back(side_points<GlobalIndex>(mesh.cells, sides[0]));
-  });
-  mesh.patches.push_back(body);
-  return mesh;
-}
+using testing_support::around_a_cube;
 
 using Kinds = std::vector<BoundaryKind>;  // of x_min, x_max, y_min, y_max, z_min, z_max, body
 constexpr auto wall = BoundaryKind::wall, far_field = BoundaryKind::farfield, plane = BoundaryKind::symmetry;

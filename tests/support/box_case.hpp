@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <span>
 #include <string>
 #include <utility>
@@ -42,14 +43,22 @@ inline Mesh small_box() {
   return box_mesh({.cells = {5, 4, 4}, .lower = {-1, 0, 2}, .upper = {1, 1.2, 3}, .perturbation = 0.12});
 }
 
+/// Whether some cells are dissipative: every seventh by its id, ghosts too.
+enum class Dissipative { none, some };
+
 /// One rank's share of `mesh` with its discretisation. Stays where it is: the discretisation refers to the
 /// domain.
 struct BoxCase {
   BoxCase(const Mesh& mesh, const BoxSides& sides, const SpaceSettings& space,
-          const Communicator& communicator)
+          const Communicator& communicator, Dissipative cells = Dissipative::none)
       : comm(communicator),
         domain(distribute(mesh, comm)),
-        discretization(domain, {sides.begin(), sides.end()}, space, gamma_air) {}
+        discretization(domain, {sides.begin(), sides.end()}, space, gamma_air) {
+    if (cells == Dissipative::none) return;
+    std::vector<std::uint8_t> marks;
+    for (const GlobalIndex id : domain.cell_ids) marks.push_back(id % 7 == 0 ? 1 : 0);
+    discretization.set_dissipative(std::move(marks));
+  }
   BoxCase(const BoxCase&) = delete;
   BoxCase& operator=(const BoxCase&) = delete;
 
@@ -57,7 +66,7 @@ struct BoxCase {
 
   const Communicator comm;
   const Subdomain domain;
-  const Discretization discretization;
+  Discretization discretization;
 };
 
 /// A smooth flow without symmetry, about Mach 1.5 along x; density and pressure within a fifth of the free
