@@ -8,7 +8,7 @@ on the first, and the second shows what they are worth. The sharp delta wing is 
 (0.4 % apart by the trend in cases/delta_wing).
 
 Writes calibration.csv, calibration.txt and calibration.png into --out. The text also tells which factor would cover 95 % of the first
-set, for the program's way from differences of meshes to intervals and for others. Three minutes of processor; needs Debian's
+set, for the program's way from differences of meshes to intervals and for others. Two minutes of processor; needs Debian's
 python3-numpy, python3-matplotlib and gmsh (hence /usr/bin/python3).
 """
 
