@@ -26,11 +26,12 @@ template <>
 inline constexpr std::span<const Word<Fineness>> words_of<Fineness> = words::fineness;
 
 struct MeshSettings {
-  std::string file;                    ///< as resolved against the case file's folder
-  std::string from;                    ///< in place of the file: a description to make it from
-  Fineness level = Fineness::coarse;   ///< of that mesh
-  Real scale = 1;                      ///< mesh units to the units of [reference]
-  std::vector<std::string> thin = {};  ///< patches inside the mesh that become walls with two sides
+  std::string file;                        ///< as resolved against the case file's folder
+  std::string from;                        ///< in place of the file: a description to make it from
+  Fineness level = Fineness::coarse;       ///< of that mesh
+  Real scale = 1;                          ///< mesh units to the units of [reference]
+  std::vector<std::string> thin = {};      ///< patches inside the mesh that become walls with two sides
+  std::vector<std::string> aft_jets = {};  ///< walls whose faces that look aft become jets
 };
 
 struct OutputSettings {

@@ -16,6 +16,7 @@
 #include "io/partitioned_mesh.hpp"
 #include "io/seal.hpp"
 #include "io/toml_text.hpp"
+#include "partition/aft_faces.hpp"
 #include "partition/thin_walls.hpp"
 #include "space/plausibility.hpp"
 
@@ -50,6 +51,41 @@ void add_patch_problems(const Case& settings, const std::vector<std::string>& pa
   }
 }
 
+/// The number of a patch.
+Index patch_of(const std::vector<std::string>& names, const std::string& name) {
+  return static_cast<Index>(std::ranges::find(names, name) - names.begin());
+}
+
+/// Adds what is wrong with mesh.aft_jets.
+void add_aft_problems(const Case& settings, const std::vector<std::string>& patch_names,
+                      std::vector<Problem>& problems) {
+  for (const auto& name : settings.mesh.aft_jets) {
+    const auto found = settings.boundary.find(name);
+    if (found == settings.boundary.end() || found->second != BoundaryKind::wall)
+      problems.push_back({settings.file, 0, fmt::format("mesh.aft_jets names \"{}\", which is no wall", name),
+                          "name patches that [boundary] makes walls"});
+    if (std::ranges::count(settings.mesh.aft_jets, name) > 1)
+      problems.push_back(
+          {settings.file, 0, fmt::format("mesh.aft_jets names \"{}\" twice", name), "name each once"});
+    if (std::ranges::find(patch_names, aft_name(name)) != patch_names.end())
+      problems.push_back({settings.file, 0,
+                          fmt::format("mesh.aft_jets would make a second patch \"{}\"", aft_name(name)),
+                          "rename that of the mesh"});
+  }
+}
+
+/// Parts the walls of mesh.aft_jets.
+void make_aft_jets(Setup& setup, const Communicator& comm) {
+  const Case& settings = setup.settings;
+  const Real scale =
+      settings.reference.half_model ? 2 / settings.reference.area : 1 / settings.reference.area;
+  for (const auto& name : settings.mesh.aft_jets) {
+    const Real area = comm.sum(part_aft_faces(setup.domain, patch_of(setup.domain.patch_names, name)));
+    setup.patch_kinds.push_back(BoundaryKind::jet);
+    spdlog::info("{}: {:.3g} reference areas look aft and are a jet", aft_name(name), scale * area);
+  }
+}
+
 /// The table of a motion from its text.
 MotionTable table_of(const Case& settings, const std::string& text) {
   auto out = parse_motion_table(text, settings.motion.table_file);
@@ -81,6 +117,7 @@ void read_mesh_of(const Case& settings, const std::string& file, CaseFiles& out)
     for (const auto& patch : out.mesh.patches) patches.push_back(patch.name);
   }
   if (!settings.boundary.empty()) add_patch_problems(settings, patches, out.problems);
+  add_aft_problems(settings, patches, out.problems);
   if (out.mesh_is_prepared) return;
   for (auto& note : open_thin_walls(out.mesh, settings.mesh.thin)) out.mesh.notes.push_back(std::move(note));
   out.mesh.validate();
@@ -139,6 +176,7 @@ Setup load_setup(const Case& settings, const Communicator& comm) {
   out.mesh.cells = out.domain.global_cells;
   out.mesh.points = out.domain.global_points;
   for (const auto& name : out.domain.patch_names) out.patch_kinds.push_back(settings.boundary.at(name));
+  make_aft_jets(out, comm);
   if (settings.motion.kind == MotionKind::table) {
     files.table_text = comm.broadcast(files.table_text);
     comm.on_all([&] { out.motion_table = table_of(settings, files.table_text); });

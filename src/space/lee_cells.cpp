@@ -2,14 +2,12 @@
 
 #include <algorithm>
 
-#include "space/face_geometry.hpp"
+#include "partition/aft_faces.hpp"
 #include "space/flow_field.hpp"
 
 namespace alphadot {
 
 namespace {
-
-constexpr Real aft = 0.70710678118654752;  // cosine of 45 degrees
 
 using Marks = CellField<std::uint8_t>;
 
@@ -20,7 +18,7 @@ void mark_aft_corners(const Discretization& discretization, Marks& out) {
     const BoundaryFace& face = domain.boundary_faces[i];
     const BoundaryKind kind = discretization.kind_of(face);
     const bool is_wall = kind == BoundaryKind::wall || kind == BoundaryKind::sting;
-    if (!is_wall || -boundary_geometry(domain, i).normal.x < aft) continue;
+    if (!is_wall || !looks_aft(domain.boundary_normal[i])) continue;
     for (unsigned corner = 0; corner < 4; ++corner)
       if (std::ranges::find(face.points, domain.cell_points[face.cell][corner]) != face.points.end())
         out[face.cell] = static_cast<std::uint8_t>(out[face.cell] | 1u << corner);
