@@ -10,6 +10,6 @@ git ls-files '*.cpp' '*.hpp' | xargs clang-format --dry-run --Werror
 cmake --preset test
 cmake --build --preset test --parallel "$(nproc)"
 cmake --preset tidy
-cmake --build --preset tidy --parallel "$(nproc)" --target alphadot
+cmake --build --preset tidy --parallel "$(nproc)" --target alphadot alphadot-cgns2su2
 # The tests are registered quick ones first; those on several ranks count as so many processes.
 ctest --preset test --parallel "$(nproc)" "$@"

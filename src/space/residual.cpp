@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <ranges>
 #include <type_traits>
 
 #include "core/prefetch.hpp"
@@ -116,10 +115,12 @@ template <class T>
 template <class Batch>
 void Residual<T>::dissipate(Index first, int count, Batch& batch) {
   const auto is_dissipative = [&](int lane) { return discretization_.is_dissipative(first + lane); };
-  if (!std::ranges::any_of(std::views::iota(0, count), is_dissipative)) return;
+  int lane = 0;
+  while (lane < count && !is_dissipative(lane)) ++lane;
+  if (lane == count) return;
   Batch other = batch;
   other.evaluate(discretization_.dissipative_flux());
-  for (int lane = 0; lane < count; ++lane)
+  for (; lane < count; ++lane)
     if (is_dissipative(lane)) batch.take_flux(lane, other);
 }
 
