@@ -30,6 +30,8 @@ Json json_of(const Result& r) {
   for (const auto& [name, loads] : r.components) forces["components"][name] = json_of(loads);
   if (!r.one_side.empty()) forces["one_side"] = Json::object();
   for (const auto& [name, loads] : r.one_side) forces["one_side"][name] = json_of(loads);
+  if (!r.panels.empty()) forces["panels"] = Json::object();
+  for (const auto& [name, loads] : r.panels) forces["panels"][name] = json_of(loads);
   forces["excluded"] = r.excluded;
 
   Json derivatives = Json::object();

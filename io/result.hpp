@@ -85,6 +85,7 @@ struct Result {
   NamedValues forces;                             ///< CA CY CN Cl Cm Cn of the whole configuration
   std::map<std::string, NamedValues> components;  ///< the same of walls and sets of walls
   std::map<std::string, NamedValues> one_side;    ///< of a half model: the same without the mirror image
+  std::map<std::string, NamedValues> panels;      ///< of controls: loads in the panel's own frame
   std::vector<std::string> excluded;              ///< patches left out of the forces (sting, jet)
   std::map<std::string, DerivativeResult> derivatives;  ///< by name, "Cm_alphadot"; per radian
   std::string uncertainty;   ///< what those of the derivatives hold; empty: there are none

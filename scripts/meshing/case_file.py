@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 from meshing.mesher import Made
 from meshing.missile import Missile
 from meshing.shape import Shape
@@ -40,9 +42,33 @@ def case_text(missile: Missile | Shape, made: Made, mesh_file: str, coarser: lis
     sets = {name: panels for name, panels in sets.items() if panels and name not in made.mesh.patches}
     if sets:
         lines += ["", "[components]", *(f"{name} = [{', '.join(map(quoted, panels))}]" for name, panels in sets.items())]
+    lines += controls(missile, made)
     if coarser:
         lines += ["", "[derivatives]", f"coarser_meshes = [{', '.join(map(quoted, coarser))}]"]
     return "\n".join(lines) + "\n"
+
+
+def controls(missile: Missile | Shape, made: Made) -> list[str]:
+    """Panels that turn about hinges, and what they do together. In a half model those of the plane of symmetry cannot; the others turn
+    with their mirror images, which is pitch."""
+    turning = [panel for panel in missile.panels if panel.turns and panel.name in made.mesh.patches]
+    if made.model == "half":
+        turning = [panel for panel in turning if abs(panel.span_direction[1]) > 1e-6]
+    lines = []
+    for panel in turning:
+        point, axis = ("[" + ", ".join(f"{x:.10g}" for x in vector) + "]" for vector in (panel.hinge_point, panel.span_direction))
+        lines += ["", "[[controls]]", f"name = {quoted(panel.name)}", f"patches = [{quoted(panel.name)}]"]
+        lines.append(f"hinge = {{point = {point}, axis = {axis}}}  # outboard: positive raises the leading edge towards x cross axis")
+    sets = []
+    for name in fin_sets(missile):
+        own = [panel for panel in turning if panel.set_name == name]
+        kinds = {"pitch": lambda axis: axis[1], "yaw": lambda axis: -axis[2], "roll": lambda axis: 1.0}  # force up, to starboard, around
+        for kind, share_of in kinds.items() if made.model == "full" else list(kinds.items())[:1]:
+            found = {panel.name: share_of(panel.span_direction) for panel in own}
+            shares = {panel: math.copysign(1.0, share) for panel, share in found.items() if abs(share) > 0.1}
+            if shares:
+                sets.append(f"{name}_{kind} = {{" + ", ".join(f"{panel} = {share:g}" for panel, share in shares.items()) + "}")
+    return lines + (["", "[control_sets]", *sets] if sets else [])
 
 
 def fin_sets(missile: Missile | Shape) -> list[str]:

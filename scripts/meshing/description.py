@@ -14,7 +14,7 @@ import numpy as np
 
 from meshing import planforms, profiles
 from meshing.keys import REQUIRED, Axes, Key, Name, Number, Numbers, Points, Schema, Switch, Text, Whole, Word, described, read_table
-from meshing.missile import Flight, Missile, Panel, Reference, ring
+from meshing.missile import Flight, Missile, Panel, Reference, hinge_of, ring
 from meshing.planforms import Planform
 from meshing.profiles import Body, Segment
 from meshing.sections import KINDS, Section
@@ -75,7 +75,7 @@ PLANFORM: Schema = {
     "bevel_end": Key(Number(least=0.0), None, "the same at the trailing edge; that of the leading edge unless given"),
     "camber": Key(Number(least=-0.2, most=0.2), 0.0, "of a NACA section, share of the chord: 2412 has 0.02"),
     "camber_place": Key(Number(least=0.1, most=0.9), 0.4, "where that is, share of the chord"),
-    "hinge": Key(Number(), None, "distance of the hinge line from the root's leading edge; half of the root chord unless given"),
+    "hinge": Key(Number(), None, "distance of the hinge line from the root's leading edge: panels are controls; or half of the root chord"),
 }  # fmt: skip
 FINS: Schema = PLANFORM | {
     "number": Key(Whole(1, 12), REQUIRED, "of panels, at equal angles"),
@@ -375,8 +375,8 @@ class _Reader:
         bevels = (front, back) if kind in ("flat", "hexagonal") else (0.3, 0.3)
         return Section(kind, values["ridge"], bevels, values["camber"], values["camber_place"])
 
-    def placed(self, place: Place, values: dict[str, Any], body: Body) -> tuple[Planform, Section, float, float] | None:
-        """Planform, section, x of the root's leading edge and the hinge; None where they are wrong."""
+    def placed(self, place: Place, values: dict[str, Any], body: Body) -> tuple[Planform, Section, float] | None:
+        """Planform, section and x of the root's leading edge; None where they are wrong."""
         planform = self.planform(place, values)
         section = self.section(place, values, planform) if planform else None
         if (values["x"] is None) == (values["x_end"] is None):
@@ -390,8 +390,7 @@ class _Reader:
         if x <= 0.0 or x + STANDING * root > body.length * (1.0 + 1e-9):
             self.complain(place, key, f"the root goes from {x:g} to {x + root:g}, and must stand on the body, 0 to {body.length:g}")
             return None
-        hinge = 0.5 * root if values["hinge"] is None else values["hinge"]
-        return planform, section, x, hinge
+        return planform, section, x
 
     def fin_set(self, place: Place, values: dict[str, Any], body: Body) -> list[Panel]:
         number, name = values["number"], values["name"] or ("fin" if place.index == 0 else f"fin{place.index + 1}")
@@ -402,17 +401,18 @@ class _Reader:
         placed = self.placed(place, values, body)
         if placed is None:
             return []
-        planform, section, x, hinge = placed
+        planform, section, x = placed
         deflections = deflections * number if len(deflections) == 1 else deflections
         turned = [values["cant"] + deflection for deflection in deflections]
-        return ring(name, self.file.where(place), values["roll"], x, body, planform, section, turned, hinge)
+        return ring(name, self.file.where(place), values["roll"], x, body, planform, section, turned, values["hinge"])
 
     def wing(self, place: Place, values: dict[str, Any], body: Body) -> list[Panel]:
         name = values["name"] or ("wing" if place.index == 0 else f"wing{place.index + 1}")
         placed = self.placed(place, values, body)
         if placed is None:
             return []
-        planform, section, x, hinge = placed
+        planform, section, x = placed
+        hinge, turns = hinge_of(planform, values["hinge"]), values["hinge"] is not None
         radius, height = float(body.radius(np.array([x]))[0]), values["height"]
         if abs(height) >= 0.95 * radius:
             self.complain(place, "height", f"the root must be inside the body, whose radius there is {radius:g}")
@@ -425,8 +425,9 @@ class _Reader:
         port_roll = 270.0 + values["dihedral"]
         return [
             Panel(f"{name}_1", name, where, 90.0 - values["dihedral"], x, root, planform, section, values["incidence"], hinge,
-                  (0.0, height)),
-            Panel(f"{name}_2", name, where, port_roll, x, root, planform, section, -values["incidence"], hinge, (0.0, height), True),
+                  (0.0, height), turns=turns),
+            Panel(f"{name}_2", name, where, port_roll, x, root, planform, section, -values["incidence"], hinge, (0.0, height), True,
+                  turns),
         ]  # fmt: skip
 
     def check_names(self, body: Body, panels: list[Panel]) -> None:

@@ -19,6 +19,7 @@ class Panel:
     `roll`: direction of the span, degrees from up (z) towards starboard (y). `root`: s where its planform begins; `x` of the leading
     edge there; `origin`: (y, z) of s = 0. `deflection`: degrees about the line x = `hinge`, n = 0; positive raises the leading edge
     towards n. `name` of its patch; `set_name` of the set it belongs to; `where`: its place in the description, for messages.
+    `turns`: its description says where the hinge is.
     """
 
     name: str
@@ -33,6 +34,7 @@ class Panel:
     hinge: float = 0.0
     origin: tuple[float, float] = (0.0, 0.0)
     turned_over: bool = False  # n of the section points to -n of the panel: the mirror image of a cambered one
+    turns: bool = False
 
     @property
     def span_direction(self) -> np.ndarray:
@@ -45,6 +47,11 @@ class Panel:
         """n in space."""
         _, y, z = self.span_direction
         return np.array([0.0, -z, y])
+
+    @property
+    def hinge_point(self) -> np.ndarray:
+        """Where the hinge line meets the root, in space."""
+        return np.array([self.x + self.hinge, *self.origin]) + self.root * self.span_direction
 
     @property
     def tip(self) -> float:
@@ -94,13 +101,21 @@ def ring(
     name: str, where: str, roll: float, x: float, body: Body, planform: Planform, section: Section, deflections: list[float],
     hinge: float | None = None,
 ) -> list[Panel]:
-    """Equal panels at equal angles, one for each deflection; the first at `roll`; the hinge at half of the root chord unless given."""
+    """Equal panels at equal angles, one for each deflection; the first at `roll`. They turn about a hinge that is given; else deflections
+    are about half of the root chord."""
     root = float(body.radius(np.array([min(x, body.length)]))[0])
-    hinge = 0.5 * float(planform.chord[0]) if hinge is None else hinge
+    at = hinge_of(planform, hinge)
     return [
-        Panel(f"{name}_{i + 1}", name, where, roll + 360.0 * i / len(deflections), x, root, planform, section, deflection, hinge)
+        Panel(
+            f"{name}_{i + 1}", name, where, roll + 360.0 * i / len(deflections), x, root, planform, section, deflection, at,
+            turns=hinge is not None,
+        )
         for i, deflection in enumerate(deflections)
-    ]
+    ]  # fmt: skip
+
+
+def hinge_of(planform: Planform, given: float | None) -> float:
+    return 0.5 * float(planform.chord[0]) if given is None else given
 
 
 def exactly(value: float) -> float:

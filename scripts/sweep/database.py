@@ -14,12 +14,26 @@ COEFFICIENTS = ("CA", "CY", "CN", "Cl", "Cm", "Cn")
 VARIABLES = ("alpha", "beta", "p", "q", "r", "alphadot", "betadot", "alphaddot", "betaddot", "q_plus_alphadot", "r_minus_betadot")
 NAMES = tuple(f"{coefficient}_{variable}" for variable in VARIABLES for coefficient in COEFFICIENTS)
 KNOWN = frozenset(NAMES)
+STREAM = ("mach", "gamma")  # what adjoints also differentiate by
 SIDE = ("CY_beta", "Cn_beta", "Cl_beta", "Cn_r", "Cn_betadot", "Cl_p", "Cn_p", "Cl_r")  # of the motion out of the plane of symmetry
 # What changes its sign in the mirror image about y = 0 and about z = 0; a derivative where one of its two halves does.
 ODD = {
     "y": {"CY", "Cl", "Cn", "beta", "p", "r", "betadot", "betaddot", "r_minus_betadot"},
     "z": {"CN", "Cl", "Cm", "alpha", "p", "q", "alphadot", "alphaddot", "q_plus_alphadot"},
 }
+
+
+def by_control(name: str) -> str | None:
+    """The control of a derivative's name, CN_tail_pitch; None where it is one by a flight variable, or none of the whole configuration."""
+    coefficient, _, variable = name.partition("_")
+    other = coefficient in COEFFICIENTS and variable.isidentifier() and name not in KNOWN and variable not in STREAM
+    return variable if other else None
+
+
+def in_order(names: Iterable[str]) -> list[str]:
+    """Names of derivatives as tables have them: by flight variables, then by controls as they come."""
+    found = dict.fromkeys(names)
+    return [name for name in NAMES if name in found] + [name for name in found if by_control(name)]
 
 
 class Estimate(NamedTuple):
@@ -96,7 +110,11 @@ def point_of(run: Run) -> Point:
         run.beta,
         "",
         {name: forces[name] for name in COEFFICIENTS if forces.get(name) is not None},
-        {name: Estimate.of(entry) for name, entry in result.get("derivatives", {}).items() if name in KNOWN and entry["value"] is not None},
+        {
+            name: Estimate.of(entry)
+            for name, entry in result.get("derivatives", {}).items()
+            if (name in KNOWN or by_control(name)) and entry["value"] is not None
+        },
         forces.get("components", {}),
         result,
     )
@@ -118,13 +136,15 @@ def images(points: Iterable[Point], planes: set[str]) -> Iterable[Point]:
 
 
 def mirrored(point: Point, kind: str, alpha: float, beta: float) -> Point:
-    """The patches of a mirror image have other names, and are left out."""
+    """The patches and the controls of a mirror image have other names, and are left out."""
 
     def sign(*words: str) -> float:
         return math.prod(-1.0 for plane in kind for word in words if word in ODD[plane])
 
     coefficients = {name: sign(name) * value + 0.0 for name, value in point.coefficients.items()}
     derivatives = {
-        name: entry._replace(value=sign(*name.split("_", 1)) * entry.value + 0.0) for name, entry in point.derivatives.items()
+        name: entry._replace(value=sign(*name.split("_", 1)) * entry.value + 0.0)
+        for name, entry in point.derivatives.items()
+        if not by_control(name)
     }
     return replace(point, alpha=alpha, beta=beta, image=kind, coefficients=coefficients, derivatives=derivatives, components={})

@@ -10,7 +10,7 @@ from functools import cached_property
 
 import numpy as np
 
-from sweep.database import COEFFICIENTS, NAMES, Estimate, Point
+from sweep.database import COEFFICIENTS, Estimate, Point, by_control, in_order
 from sweep.errors import SweepError
 
 PITCH_TO_YAW = {  # of a configuration that looks the same from all sides: (yaw, pitch, sign), about its axis
@@ -57,10 +57,15 @@ class Grid:
     def derivatives(self) -> list[str]:
         """Names of those that every point has."""
         points = iter(self.points.values())
-        shared = set(next(points).derivatives)
+        shared = dict.fromkeys(next(points).derivatives)
         for point in points:
-            shared &= point.derivatives.keys()
-        return [name for name in NAMES if name in shared]
+            shared = {name: None for name in shared if name in point.derivatives}
+        return in_order(shared)
+
+    @property
+    def controls(self) -> list[str]:
+        """Names of controls with derivatives that every point has; their rates are none."""
+        return [name for name in dict.fromkeys(map(by_control, self.derivatives)) if name and not name.endswith("dot")]
 
     def nearest_zero(self) -> "Grid":
         """The part of it at the least incidence and sideslip."""

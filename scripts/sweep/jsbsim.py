@@ -67,9 +67,17 @@ def terms(grid: Grid, controls: Sequence[Control], coefficient: str):
             at = math.radians(getattr(grid, variable)[0])
             angle = prop(f"aero/{variable}-rad")
             yield name, [f"<difference>{angle}<value>{at:.12g}</value></difference>" if at else angle], axes, values
+        elif variable in linear_controls(grid, controls):
+            yield name, [prop(f"fcs/{variable}-rad")], axes, values
     for control in controls:
         axes = [(ALPHA, np.radians(control.alpha)), (MACH, control.mach), (f"fcs/{control.name}-deg", control.degrees)]
         yield f"{coefficient}_{control.name}", [], axes, control.changes[coefficient].transpose((2, 1, 0))
+
+
+def linear_controls(grid: Grid, controls: Sequence[Control]) -> list[str]:
+    """Those that there are derivatives by, and no runs with them deflected."""
+    tabulated = {control.name for control in controls}
+    return [name for name in grid.controls if name not in tabulated]
 
 
 def function(name: str, coefficient: str, factors: Sequence[str], axes: Sequence[Axis], values: np.ndarray) -> list[str]:
@@ -127,6 +135,9 @@ def comment(grid: Grid, controls: Sequence[Control], title: str) -> str:
     for control in controls:
         turned = f"fcs/{control.name}-deg, {span(control.degrees)} degrees"
         lines.append(f"Control {control.name}: {turned}; it changes no rate's derivative here.")
+    linear = linear_controls(grid, controls)
+    if linear:
+        lines.append(f"Linear in {', '.join(f'fcs/{name}-rad' for name in linear)}; a set and its own controls are the same deflections.")
     lines += [f"Left out: {line}." for line in grid.left_out]
     text = "\n       ".join(lines)
     while "--" in text:

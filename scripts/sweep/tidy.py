@@ -12,7 +12,7 @@ import numpy as np
 
 from sweep.atmosphere import air_at
 from sweep.axes import to_total
-from sweep.database import COEFFICIENTS, NAMES, Point
+from sweep.database import COEFFICIENTS, KNOWN, Point, by_control, in_order
 from sweep.plan import Sweep
 
 Columns = dict[str, list]
@@ -47,8 +47,7 @@ def columns_of(points: list[Point]) -> Columns:
     out["x_cp"] = [x_cp(point) for point in points]
     out["static_margin"] = [number(point.static_margin) for point in points]
     known = [point.derivatives for point in points]
-    present = set().union(*known)
-    for name in (name for name in NAMES if name in present):
+    for name in in_order(name for derivatives in known for name in derivatives):
         found = [derivatives.get(name) for derivatives in known]
         out[name] = [entry and entry.value for entry in found]
         out[f"{name}.uncertainty"] = [entry and number(entry.uncertainty) for entry in found]
@@ -119,7 +118,7 @@ def write_hdf5(path: Path, columns: Columns, title: str) -> None:
 def place(name: str) -> str:
     if "@" in name:
         return "components/{1}/{0}".format(*name.split("@", 1))
-    if name in NAMES:
+    if name in KNOWN or ("." not in name and by_control(name)):
         return f"{name}/value"
     return name.replace(".", "/")
 

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 #include <span>
+#include <string>
+#include <vector>
 
 #include "analysis/axes.hpp"
 #include "analysis/static_margin.hpp"
@@ -17,11 +19,13 @@ namespace {
 constexpr std::string_view rule = " ---------------------------------------------------------------\n";
 
 /// A column of AVL's blocks: its variable, the letters behind the coefficient, its title.
-struct Column {
+template <class Text>
+struct ColumnOf {
   Variable variable;
-  std::string_view suffix;
-  std::string_view title;
+  Text suffix;
+  Text title;
 };
+using Column = ColumnOf<std::string_view>;
 
 constexpr Column static_columns[] = {{Variable::alpha, "a", "alpha"}, {Variable::beta, "b", "beta"}};
 constexpr Column rate_columns[] = {{Variable::p, "p", "roll rate  p'"},
@@ -46,8 +50,8 @@ constexpr Line drag_line[] = {{" x  force CD |", 0}};
 constexpr Line all_lines[] = {lines[0], lines[1], drag_line[0], lines[2], lines[3], lines[4]};
 
 /// Columns that are not known are there as nan, so that each number keeps its place.
-std::string block(const DerivativeSet& derivatives, std::span<const Column> columns,
-                  std::span<const Line> rows) {
+template <class Columns>
+std::string block(const DerivativeSet& derivatives, const Columns& columns, std::span<const Line> rows) {
   std::string title(14, ' '), underline(14, ' '), out;
   for (const auto& column : columns) {
     title += fmt::format("{:>20}", column.title);
@@ -69,6 +73,18 @@ std::string block(const DerivativeSet& derivatives, std::span<const Column> colu
     out += "\n";
   }
   return out + "\n";
+}
+
+/// d01, d02, ... as AVL counts controls.
+std::vector<ColumnOf<std::string>> control_columns(const DerivativeSet& derivatives) {
+  std::vector<ColumnOf<std::string>> out;
+  for (const auto& [variable, column] : derivatives)
+    if (is_control(variable) && !is_control_rate(variable)) {
+      const auto number = out.size() + 1;
+      out.push_back(
+          {variable, fmt::format("d{:02}", number), fmt::format("{}  d{}", name(variable), number)});
+    }
+  return out;
 }
 
 /// A reference in the twelve columns where AVL's readers look for it: they take the third to the eighth. A
@@ -145,6 +161,8 @@ std::string avl_stability_text(const FlightPoint& point) {
   std::string out = header(point) + totals(point, to_stability_axes(point.steady, alpha)) + std::string(rule);
   out += "\n Stability-axis derivatives...\n\n";
   out += block(derivatives, static_columns, lines) + block(derivatives, rate_columns, lines);
+  const auto controls = control_columns(derivatives);
+  if (!controls.empty()) out += block(derivatives, controls, lines);
   const auto found = point.derivatives.find(Variable::alpha);
   const Real margin = found == point.derivatives.end()
                           ? std::numeric_limits<Real>::quiet_NaN()
@@ -152,6 +170,7 @@ std::string avl_stability_text(const FlightPoint& point) {
   out += fmt::format(" Neutral point  Xnp ={:>11.6f}\n\n",
                      point.reference.moment_center.x + point.reference.length * margin);
   out += block(derivatives, static_columns, drag_line) + block(derivatives, rate_columns, drag_line);
+  if (!controls.empty()) out += block(derivatives, controls, drag_line);
   out += block(derivatives, acceleration_columns, all_lines);
   return out;
 }

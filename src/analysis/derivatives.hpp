@@ -16,7 +16,7 @@ namespace alphadot {
 
 /// What a coefficient is differentiated by: angles in rad, rates times l/2V, second rates (alphaddot) times
 /// (l/2V)^2. The last two are what forced pitch and forced yaw about a fixed axis yield: X_q + X_alphadot and
-/// X_r - X_betadot (r = -betadot there).
+/// X_r - X_betadot (r = -betadot there). Beyond these: see control_variable().
 enum class Variable {
   alpha,
   beta,
@@ -31,14 +31,30 @@ enum class Variable {
   r_minus_betadot
 };
 
-/// "alpha", "q_plus_alphadot", ...
+/// The deflection, in rad, of the control of this name: the same variable for the same name in all of the
+/// program. Controls come behind all other variables, in the order in which they were first named.
+Variable control_variable(std::string_view name);
+bool is_control(Variable variable);  ///< a deflection, or the rate of one
+/// The rate of a control's deflection, times l/2V: "tail_1dot". A control too.
+Variable rate_of_control(Variable control);
+bool is_control_rate(Variable variable);  ///< the rate of a deflection
+/// What such a rate is the rate of.
+Variable control_of_rate(Variable rate);
+
+/// "alpha", "q_plus_alphadot", ..., or the name of the control.
 std::string_view name(Variable variable);
 
 /// The name of one entry: "Cm" by alphadot is "Cm_alphadot".
 std::string derivative_name(std::string_view coefficient, Variable variable);
 
-/// Coefficient (in the order of Coefficients) and variable of such a name; nothing for other names.
-std::optional<std::pair<int, Variable>> derivative_of_name(std::string_view name);
+/// Coefficient (in the order of Coefficients) and variable of such a name; nothing for other names, unless
+/// `may_be_control` and it is that of a derivative by a control.
+std::optional<std::pair<int, Variable>> derivative_of_name(std::string_view name,
+                                                           bool may_be_control = false);
+
+/// Whether a control can have this name: letters, digits and underscores, a letter first; none of a flight
+/// variable, of what else there are derivatives by ("mach", "gamma"), or of a rate.
+bool is_control_name(std::string_view name);
 
 /// The columns that are known, one for each variable.
 template <class T>

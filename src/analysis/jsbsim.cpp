@@ -44,13 +44,11 @@ std::string factors_of(Variable variable, const FreestreamSettings& stream) {
       return reduced("aero/alphadot-rad_sec");
     case Variable::betadot:
       return reduced("aero/betadot-rad_sec");
-    case Variable::alphaddot:
-    case Variable::betaddot:
-    case Variable::q_plus_alphadot:
-    case Variable::r_minus_betadot:
-      break;
+    default:
+      return is_control(variable) && !is_control_rate(variable)
+                 ? property(fmt::format("fcs/{}-rad", name(variable)))
+                 : "";
   }
-  return "";
 }
 
 std::string function(const std::string& name, int coefficient, const std::string& factors, Real value) {

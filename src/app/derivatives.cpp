@@ -24,6 +24,7 @@
 #include "derivatives/balance.hpp"
 #include "derivatives/component_table.hpp"
 #include "derivatives/loads.hpp"
+#include "derivatives/panel_table.hpp"
 #include "io/files.hpp"
 
 namespace alphadot {
@@ -38,11 +39,12 @@ std::set<Variable> on_stability_axes(std::set<Variable> unconverged) {
 }
 
 /// The same numbers for spreadsheets, AVL's readers and JSBSim.
-void write_tables(const CaseRun& run, RunStatus end, const EstimatedDerivatives& estimated,
-                  std::span<const ComponentDerivatives> components, const std::vector<TableRow>& rows) {
+void write_tables(const CaseRun& run, const Result& result, const LinearDerivatives& solved,
+                  const std::vector<TableRow>& rows) {
   const Case& settings = run.settings();
+  const auto& estimated = solved.estimated;
   const auto& derivatives = estimated.derivatives;
-  const auto head = run.record().table_head(end, rows);
+  const auto head = run.record().table_head(result.status, rows);
   const FlightPoint point{settings.title,      settings.reference,
                           settings.freestream, coefficients(run.flow().steady_report().total, settings),
                           derivatives,         head.origin,
@@ -59,7 +61,18 @@ void write_tables(const CaseRun& run, RunStatus end, const EstimatedDerivatives&
   replace_file_with(stem + ".jsbsim.xml", jsbsim_aerodynamics(point));
   auto of_components = head;
   of_components.uncertainty = solver_only;
-  replace_file_with(run.record().folder() + "/components.csv", component_csv(components, of_components));
+  const std::string& folder = run.record().folder();
+  replace_file_with(folder + "/components.csv", component_csv(solved.components, of_components));
+  if (!settings.controls.empty())
+    replace_file_with(folder + "/panels.csv", panel_csv(solved.panels, result.panels, of_components));
+  if (!solved.along_body.empty())
+    replace_file_with(
+        folder + "/along_body.csv",
+        distribution_csv(solved.along_body, "x", "Moments about the moment centre", of_components));
+  if (!solved.along_panels.empty())
+    replace_file_with(folder + "/along_panels.csv",
+                      distribution_csv(solved.along_panels, "s",
+                                       "Of each panel by itself: " + std::string(panel_note), of_components));
 }
 
 /// The limits of quasi-steady flight, which are no rows of a table.
@@ -92,8 +105,8 @@ struct Outcome {
 /// Marches to the steady state, solves for the derivatives and writes their tables.
 Outcome complete(CaseRun& run, std::span<const MeshDerivatives> coarser) {
   auto& record = run.record();
-  EstimatedDerivatives estimated;
-  std::vector<ComponentDerivatives> components;
+  LinearDerivatives solved;
+  auto& estimated = solved.estimated;
   Real linear_cpu = not_measured;
   bool foundation_holds = false;  // of all derivatives: the steady flow and the coarser meshes
   const RunStatus status = run.carry_out([&](RunStatus marched) {
@@ -102,17 +115,16 @@ Outcome complete(CaseRun& run, std::span<const MeshDerivatives> coarser) {
     run.progress().begin_phase("linear solves");
     Responses responses = kept_responses(run);
     const LinearSolves solves(run, [&] { keep(run, responses); });
-    auto solved = linear_derivatives(run.flow(), responses, solves.observer());
+    solved = linear_derivatives(run.flow(), responses, solves.observer());
     for (auto& shortfall : solved.shortfalls) record.fall_short(std::move(shortfall));
-    estimated = std::move(solved.estimated);
-    components = std::move(solved.components);
     linear_cpu = timer.cpu();
     return estimated.derivatives.empty() ? RunStatus::interrupted : marched;
   });
   if (!foundation_holds)
     for (const auto& [variable, column] : estimated.derivatives) estimated.unconverged.insert(variable);
-  for (auto& component : components)
+  for (auto& component : solved.components)
     component.estimated.unconverged = component.one_side.unconverged = estimated.unconverged;
+  for (auto& panel : solved.panels) panel.estimated.unconverged = estimated.unconverged;
   DerivativeSetOf<MeshConvergence> convergence;
   if (!estimated.derivatives.empty() && !coarser.empty())
     convergence = add_mesh_part(estimated, run.flow(), coarser);
@@ -128,7 +140,7 @@ Outcome complete(CaseRun& run, std::span<const MeshDerivatives> coarser) {
     const auto balance = balance_rows(settings, estimated);
     result.longitudinal = longitudinal_of(balance, estimated.derivatives);
     rows.insert(rows.end(), balance.begin(), balance.end());
-    run.communicator().on_root([&] { write_tables(run, status, estimated, components, rows); });
+    run.communicator().on_root([&] { write_tables(run, result, solved, rows); });
   }
   return {std::move(result), std::move(estimated.derivatives), std::move(rows)};
 }

@@ -26,7 +26,7 @@ EstimatedDerivatives columns_of(const Result& result, const std::string& file) {
   EstimatedDerivatives out;
   for (const auto& part : result.derivatives.begin()->second.parts) out.parts.push_back({part.first, {}});
   for (const auto& [name, entry] : result.derivatives) {
-    const auto found = derivative_of_name(name);
+    const auto found = derivative_of_name(name, result.verb == "derivatives");
     if (!found) refuse(file, fmt::format("{} is no stability derivative of the whole configuration", name));
     const auto [coefficient, variable] = *found;
     out.derivatives[variable][coefficient] = {entry.value, entry.uncertainty};

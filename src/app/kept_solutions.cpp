@@ -11,14 +11,20 @@
 #include <vector>
 
 #include "core/log.hpp"
+#include "derivatives/controls.hpp"
 
 namespace alphadot {
 
 namespace {
 
-constexpr Variable solved_for[] = {Variable::alpha,   Variable::beta,      Variable::p,
-                                   Variable::q,       Variable::r,         Variable::alphadot,
-                                   Variable::betadot, Variable::alphaddot, Variable::betaddot};
+/// All that a case may be solved for.
+std::vector<Variable> solved_for(const Case& settings) {
+  using enum Variable;
+  std::vector<Variable> out{alpha, beta, p, q, r, alphadot, betadot, alphaddot, betaddot};
+  for (const auto& controls : {controls_of(settings), control_rates_of(settings)})
+    out.insert(out.end(), controls.begin(), controls.end());
+  return out;
+}
 
 std::string entry_of(ResponseKey key) {
   return (key.limiter_held ? "response_limiter_held_" : "response_") + std::string(name(key.variable));
@@ -133,8 +139,9 @@ const CheckpointHead* head_of_solutions(const CaseRun& run) {
   const auto tolerances = [](const DerivativeSettings& settings) {
     return std::tie(settings.method, settings.orders, settings.directions, settings.max_iterations);
   };
-  const bool same =
-      tolerances(run.checkpoints().case_before().derivatives) == tolerances(run.settings().derivatives);
+  const auto& before = run.checkpoints().case_before();
+  const bool same = tolerances(before.derivatives) == tolerances(run.settings().derivatives) &&
+                    before.controls == run.settings().controls;
   return same ? restart : nullptr;
 }
 
@@ -176,7 +183,7 @@ Responses kept_responses(CaseRun& run) {
   const auto cells = static_cast<std::size_t>(run.flow().setup().domain.owned_cells);
   std::vector<CheckpointField> fields;
   for (const bool limiter_held : {false, true})
-    for (const auto variable : solved_for) {
+    for (const auto variable : solved_for(run.settings())) {
       const ResponseKey key{variable, limiter_held};
       const auto numbers = restart->numbers.find(entry_of(key));
       if (numbers == restart->numbers.end()) continue;

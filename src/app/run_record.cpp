@@ -16,6 +16,7 @@
 #include "core/log.hpp"
 #include "core/memory.hpp"
 #include "derivatives/loads.hpp"
+#include "derivatives/panel_table.hpp"
 #include "derivatives/part.hpp"
 #include "io/files.hpp"
 
@@ -167,6 +168,8 @@ Result RunRecord::result(RunStatus end, std::span<const TableRow> derivatives) c
       if (flow_.settings().reference.half_model)
         out.one_side[name] = named(coefficients(load, of_one_side(flow_.settings())));
     }
+  if (!loads.empty())
+    out.panels = steady_panel_loads(flow_.settings(), flow_.settings().controls, loads, patches);
   out.excluded = excluded_patches(flow_.setup());
   for (const auto& row : derivatives)
     out.derivatives[row.name] = {row.value.value, row.value.uncertainty, row.method, row.converged,

@@ -10,8 +10,8 @@ namespace {
 
 /// Tables end with a dot.
 constexpr std::string_view always_free[] = {
-    "title",       "mesh.file",    "mesh.from",   "mesh.level",      "output.",
-    "checkpoint.", "derivatives.", "components.", "unsteady.cycles", "motion.table_file"};
+    "title",        "mesh.file",   "mesh.from",     "mesh.level",      "output.",          "checkpoint.",
+    "derivatives.", "components.", "control_sets.", "unsteady.cycles", "motion.table_file"};
 constexpr std::string_view free_in_motion[] = {"steady.", "unsteady.inner_tolerance", "unsteady.max_inner"};
 constexpr std::string_view free_in_flow[] = {"motion.kind", "motion.treatment", "motion.amplitude",
                                              "motion.reduced_frequency", "unsteady."};
@@ -37,6 +37,7 @@ std::vector<KeyDifference> differences(const Case& before, const Case& now, Shar
   std::vector<KeyDifference> out;
   for (const auto& key : case_keys()) {
     if (names(always_free, key.path)) continue;
+    if (key.path == "controls" && before.deflections.empty() && now.deflections.empty()) continue;
     if (shared != Shared::steps && names(free_in_motion, key.path)) continue;
     if (shared == Shared::flow && names(free_in_flow, key.path)) continue;
     const auto there = value_of(key, before), here = value_of(key, now);

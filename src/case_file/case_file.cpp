@@ -9,6 +9,7 @@
 #include <set>
 #include <tuple>
 
+#include "analysis/derivatives.hpp"
 #include "case_file/case_keys.hpp"
 #include "case_file/suggestion.hpp"
 #include "core/error.hpp"
@@ -109,7 +110,8 @@ class CaseReader {
     for (const auto& [path, entry] : entries_) {
       const auto name = std::string_view(path).substr(entry.key->table().size());
       if (auto problem = entry.key->read(name, *entry.node, c))
-        complain(entry.place, {"", entry.line, path + " " + problem->what, problem->remedy});
+        complain(entry.place, {"", entry.line > 0 && problem->line > 0 ? problem->line : entry.line,
+                               path + " " + problem->what, problem->remedy});
       if (entry.key->table() == "boundary." && entry.line > 0)
         c.boundary_lines[std::string(name)] = entry.line;
     }
@@ -219,9 +221,63 @@ class CaseReader {
     }
   }
 
+  /// Where the controls themselves are wrong any name is as good as theirs.
+  bool is_control(const Case& c, const std::string& name) const {
+    return (c.controls.empty() && entries_.contains("controls")) ||
+           std::ranges::find(c.controls, name, &ControlSettings::name) != c.controls.end();
+  }
+
+  /// Walls that turn, under names of their own, and sets of them.
+  void check_controls(const Case& c) {
+    std::set<std::string> names;
+    const auto check_name = [&](const std::string& key, const std::string& name) {
+      if (!is_control_name(name))
+        complain_about(
+            {key}, fmt::format("{}: {} cannot name a control", key, toml_string(name)),
+            "take letters, digits and underscores, a letter first; no flight variable, and not ...dot");
+      if (!names.insert(name).second)
+        complain_about({key}, fmt::format("{}: there are two controls {}", key, toml_string(name)),
+                       "give each a name of its own");
+    };
+    for (const auto& control : c.controls) {
+      const std::string about = "controls: " + toml_string(control.name);
+      check_name("controls", control.name);
+      if (control.patches.empty()) complain_about({"controls"}, about + " has no patches", "name some");
+      for (const auto& patch : control.patches) {
+        const auto kind = c.boundary.find(patch);
+        if (kind == c.boundary.end() || kind->second == BoundaryKind::farfield ||
+            kind->second == BoundaryKind::symmetry)
+          complain_about({"controls"},
+                         fmt::format("{} names {}, which is no wall of the case", about, toml_string(patch)),
+                         "name patches that [boundary] makes walls, stings or jets");
+      }
+      if (norm(control.hinge_axis) == 0)
+        complain_about({"controls"}, about + ": the axis of the hinge has no direction",
+                       "give hinge.axis, for a panel outboard along its hinge line");
+    }
+    for (const auto& [name, shares] : c.control_sets) {
+      const std::string key = "control_sets." + name;
+      check_name(key, name);
+      if (shares.empty()) complain_about({key}, key + " has no controls", "name some, or leave it out");
+      for (const auto& [control, share] : shares)
+        if (!is_control(c, control))
+          complain_about({key}, fmt::format("{} names {}, which is no control", key, toml_string(control)),
+                         "name controls of [[controls]]");
+    }
+  }
+
+  void check_deflections(const Case& c) {
+    for (const auto& [name, degrees] : c.deflections)
+      if (!is_control(c, name))
+        complain_about({"deflections." + name}, fmt::format("deflections.{} names no control", name),
+                       "name controls of [[controls]]");
+  }
+
   /// What no single key can tell.
   void check_together(const Case& c) {
     check_components(c);
+    check_controls(c);
+    check_deflections(c);
     const auto kind = c.motion.kind;
     const std::string motion = "motion.kind = " + toml_string(word_of(kind));
     if (c.steady.cfl_max < c.steady.cfl_start)

@@ -85,6 +85,55 @@ CaseKey components_key() {
   return key;
 }
 
+/// [control_sets]: name = {control = share, ...}, for any name.
+CaseKey control_sets_key() {
+  const SharesValue shares{.from = -1000, .to = 1000};
+  CaseKey key;
+  key.path = "control_sets.*";
+  key.type = shares.type();
+  key.doc =
+      "controls that are deflected together, each by so many rad for one of the set: pitch = {left = 1, "
+      "right = -1}";
+  key.read = [shares](std::string_view name, const toml::node& value, Case& c) {
+    std::map<std::string, Real> found;
+    auto problem = shares.read(value, found);
+    if (!problem) c.control_sets[std::string(name)] = std::move(found);
+    return problem;
+  };
+  key.write = [shares](const Case& c) {
+    std::string lines;
+    for (const auto& [name, of_controls] : c.control_sets)
+      lines += fmt::format("{} = {}\n", toml_string(name), shares.write(of_controls));
+    return lines;
+  };
+  return key;
+}
+
+/// [deflections]: control = degrees.
+CaseKey deflections_key() {
+  const NumberValue angle{.from = -45, .to = 45};
+  CaseKey key;
+  key.path = "deflections.*";
+  key.type = angle.type();
+  key.doc =
+      "degrees that a control is deflected by in the steady flow: its walls turn and the mesh around "
+      "them deforms, which small angles allow";
+  key.limits = CaseKey::Limits{angle.from, angle.to};
+  key.read = [angle](std::string_view name, const toml::node& value, Case& c) {
+    Real degrees = 0;
+    auto problem = angle.read(value, degrees);
+    if (!problem) c.deflections[std::string(name)] = degrees;
+    return problem;
+  };
+  key.write = [angle](const Case& c) {
+    std::string lines;
+    for (const auto& [name, degrees] : c.deflections)
+      lines += fmt::format("{} = {}\n", toml_string(name), angle.write(degrees));
+    return lines;
+  };
+  return key;
+}
+
 std::vector<CaseKey> make_keys() {
   const auto count = IntegerValue{.from = 1, .to = most_steps};
   const auto none_or_more = IntegerValue{.from = 0, .to = most_steps};
@@ -97,6 +146,10 @@ std::vector<CaseKey> make_keys() {
   keys.push_back(make_case_key(
       "title", [](auto& c) -> auto& { return c.title; }, TextValue{.most = 1000, .may_be_empty = true},
       "what the case is, for people"));
+  keys.push_back(make_case_key(
+      "controls", [](auto& c) -> auto& { return c.controls; }, ControlsValue{},
+      "walls that turn about a hinge, as fins or flaps: derivatives by their deflections; positive by the "
+      "right-hand rule about the axis, which points outboard; of a half model the mirror image turns along"));
 
   Table(keys, "mesh", &Case::mesh)
       .key("file", &MeshSettings::file, TextValue{},
@@ -139,6 +192,8 @@ std::vector<CaseKey> make_keys() {
 
   keys.push_back(boundary_key());
   keys.push_back(components_key());
+  keys.push_back(control_sets_key());
+  keys.push_back(deflections_key());
 
   Table(keys, "space", &Case::space)
       .key("flux", &SpaceSettings::flux, WordValue{words_of<FluxKind>}, "numerical flux")
@@ -208,6 +263,8 @@ std::vector<CaseKey> make_keys() {
       .key("max_iterations", &DerivativeSettings::max_iterations, count, "limit of linear iterations")
       .key("second_order", &DerivativeSettings::second_order, FlagValue{},
            "also by the second time derivatives of alpha and beta, and where quasi-steady flight ends")
+      .key("control_rates", &DerivativeSettings::control_rates, FlagValue{},
+           "also by the rates of the controls' deflections, times length / 2V: CN_flapdot")
       .key("limiter_uncertainty", &DerivativeSettings::limiter_uncertainty, FlagValue{},
            "solve once more with the limiter's factors held at those of the steady flow, and add the "
            "difference to the uncertainty; doubles the cost of the linear solves")
@@ -218,7 +275,9 @@ std::vector<CaseKey> make_keys() {
       .key("folder", &OutputSettings::folder, TextValue{}, "folder of the run")
       .default_is("runs/<name of the case file>")
       .key("flow", &OutputSettings::flow, FlagValue{}, "write flow.vtkhdf")
-      .key("surface", &OutputSettings::surface, FlagValue{}, "write surface.vtkhdf");
+      .key("surface", &OutputSettings::surface, FlagValue{}, "write surface.vtkhdf")
+      .key("stations", &OutputSettings::stations, IntegerValue{.from = 0, .to = 10'000},
+           "of the derivatives' distributions along the body and along the panels of controls; 0: none");
 
   const auto minutes = NumberValue{.from = 0, .to = 1e7};
   Table(keys, "checkpoint", &Case::checkpoint)

@@ -126,4 +126,107 @@ std::string VectorValue::write(const Vec3& value) const {
   return fmt::format("[{}, {}, {}]", written(value.x), written(value.y), written(value.z));
 }
 
+namespace {
+
+/// Reads the keys of a table, all of which it must have and no others; says which one is wrong, where.
+template <class... Readers>
+MaybeProblem read_table(const toml::node& node, const std::string& expected,
+                        const std::pair<std::string_view, Readers>&... keys) {
+  const auto* table = node.as_table();
+  const auto placed = [](const toml::node& at, Problem problem, std::string_view key) {
+    if (problem.line == 0) problem.line = static_cast<int>(at.source().begin.line);
+    if (!key.empty())
+      problem.what = fmt::format("{}{}{}", key, problem.what.front() == '.' ? "" : ": ", problem.what);
+    return problem;
+  };
+  if (!table) return placed(node, *wrong_value(expected, node), "");
+  for (const auto& [key, value] : *table)
+    if (((key.str() != keys.first) && ...))
+      return placed(value,
+                    {"", 0, fmt::format("{} is no key of it", toml_string(std::string(key.str()))),
+                     "write " + expected},
+                    "");
+  MaybeProblem found;
+  const auto read_one = [&](const auto& key) {
+    if (found) return;
+    const auto* value = table->get(key.first);
+    if (!value)
+      found = placed(node, {"", 0, fmt::format("{} is missing", key.first), "write " + expected}, "");
+    else if (auto problem = key.second(*value))
+      found = placed(*value, std::move(*problem), key.first);
+  };
+  (read_one(keys), ...);
+  return found;
+}
+
+const std::string hinge_type = "{point = [x, y, z], axis = [x, y, z]}";
+const std::string control_type = "a table with name, patches and hinge = " + hinge_type;
+constexpr VectorValue point_value{-1e12, 1e12};
+
+}  // namespace
+
+std::string ControlsValue::type() const {
+  return fmt::format("at most {} tables [[controls]], each {}", most, control_type);
+}
+
+MaybeProblem ControlsValue::read(const toml::node& node, std::vector<ControlSettings>& value) const {
+  const auto* array = node.as_array();
+  if (!array || array->size() > most) return wrong_value(type(), node);
+  std::vector<ControlSettings> controls(array->size());
+  for (std::size_t i = 0; i < controls.size(); ++i) {
+    auto& [name, patches, point, axis] = controls[i];
+    const auto read_name = [&](const toml::node& n) { return TextValue{.most = 60}.read(n, name); };
+    const auto read_patches = [&](const toml::node& n) { return TextsValue{.most = 1000}.read(n, patches); };
+    const auto read_hinge = [&](const toml::node& n) {
+      return read_table(n, hinge_type,
+                        std::pair{std::string_view("point"),
+                                  [&](const toml::node& p) { return point_value.read(p, point); }},
+                        std::pair{std::string_view("axis"),
+                                  [&](const toml::node& a) { return point_value.read(a, axis); }});
+    };
+    auto problem = read_table((*array)[i], control_type, std::pair{std::string_view("name"), read_name},
+                              std::pair{std::string_view("patches"), read_patches},
+                              std::pair{std::string_view("hinge"), read_hinge});
+    if (!problem) continue;
+    problem->what = fmt::format("{}: {}", name.empty() ? fmt::format("number {}", i + 1) : toml_string(name),
+                                problem->what);
+    return problem;
+  }
+  value = std::move(controls);
+  return std::nullopt;
+}
+
+std::string ControlsValue::write(const std::vector<ControlSettings>& value) const {
+  std::string out;
+  for (const auto& [name, patches, point, axis] : value)
+    out += fmt::format("{}{{name = {}, patches = {}, hinge = {{point = {}, axis = {}}}}}",
+                       out.empty() ? "" : ", ", toml_string(name), TextsValue{}.write(patches),
+                       point_value.write(point), point_value.write(axis));
+  return "[" + out + "]";
+}
+
+std::string SharesValue::type() const {
+  return fmt::format("a table of shares from {} to {}, {{name = share, ...}}", from, to);
+}
+
+MaybeProblem SharesValue::read(const toml::node& node, std::map<std::string, Real>& value) const {
+  const auto* table = node.as_table();
+  if (!table) return wrong_value(type(), node);
+  std::map<std::string, Real> shares;
+  for (const auto& [key, number] : *table)
+    if (auto problem = NumberValue{from, to}.read(number, shares[std::string(key.str())])) {
+      problem->what = fmt::format("{} {}", toml_string(std::string(key.str())), problem->what);
+      return problem;
+    }
+  value = std::move(shares);
+  return std::nullopt;
+}
+
+std::string SharesValue::write(const std::map<std::string, Real>& value) const {
+  std::string out;
+  for (const auto& [name, number] : value)
+    out += fmt::format("{}{} = {}", out.empty() ? "" : ", ", toml_string(name), written(number));
+  return "{" + out + "}";
+}
+
 }  // namespace alphadot

@@ -4,6 +4,7 @@
 
 #include <toml++/toml.h>
 
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -78,6 +79,26 @@ struct VectorValue {
   std::string type() const;
   MaybeProblem read(const toml::node& node, Vec3& value) const;
   std::string write(const Vec3& value) const;
+};
+
+/// Controls, [{name, patches, hinge = {point, axis}}, ...].
+struct ControlsValue {
+  static constexpr bool is_text = false;
+  std::size_t most = 1000;
+
+  std::string type() const;
+  MaybeProblem read(const toml::node& node, std::vector<ControlSettings>& value) const;
+  std::string write(const std::vector<ControlSettings>& value) const;
+};
+
+/// Numbers by name, {name = number, ...}.
+struct SharesValue {
+  static constexpr bool is_text = false;
+  Real from, to;
+
+  std::string type() const;
+  MaybeProblem read(const toml::node& node, std::map<std::string, Real>& value) const;
+  std::string write(const std::map<std::string, Real>& value) const;
 };
 
 /// One of a list of words.

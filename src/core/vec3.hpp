@@ -14,6 +14,7 @@ struct Vec3Of {
   constexpr T& operator[](int i) { return i == 0 ? x : i == 1 ? y : z; }
   constexpr const T& operator[](int i) const { return i == 0 ? x : i == 1 ? y : z; }
 
+  constexpr bool operator==(const Vec3Of&) const = default;
   constexpr Vec3Of& operator+=(const Vec3Of& b) {
     x += b.x;
     y += b.y;

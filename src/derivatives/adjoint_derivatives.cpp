@@ -9,6 +9,7 @@
 #include "core/error.hpp"
 #include "core/log.hpp"
 #include "derivatives/block_solve.hpp"
+#include "derivatives/controls.hpp"
 
 namespace alphadot {
 
@@ -55,9 +56,21 @@ AdjointDerivatives::AdjointDerivatives(FlowCase& flow, std::vector<Functional> f
         for (const auto& number : stream_numbers) out.emplace_back(flow.iteration(), flow.settings(), number);
         return out;
       }()),
+      controls_(controls_of(flow.settings())),
+      shapes_([&] {
+        std::vector<HeldFlowChange> out;
+        for (const Variable control : controls_) out.push_back(change_by_control(flow, control, false));
+        return out;
+      }()),
       solver_(flow.iteration(), flow.conditions(), flow.settings().derivatives, observer_.go_on) {
   std::vector<std::span<const Conserved<Real>>> changes;
   for (const auto& change : stream_) changes.push_back(change.residual());
+  for (const auto& change : shapes_) {
+    changes.emplace_back(change.residual);
+    auto loads = numbers_of(change.loads);
+    flow_.communicator().sum(loads);
+    control_loads_.push_back(loads_of(loads));
+  }
   solver_.follow(std::move(changes));
 }
 
@@ -113,6 +126,18 @@ std::vector<std::string> AdjointDerivatives::unconverged(const Adjoints& adjoint
   return out;
 }
 
+/// The load's own part and what the flow does.
+Estimate AdjointDerivatives::by_control(const Functional& functional, const Adjoint& adjoint,
+                                        Variable control) const {
+  const auto at = static_cast<std::size_t>(std::ranges::find(controls_, control) - controls_.begin());
+  const auto weights = weights_of(functional, flow_.setup().domain.patch_names, flow_.settings());
+  Estimate out{adjoint.products[stream_.size() + at], adjoint.products_error[stream_.size() + at]};
+  for (std::size_t patch = 0; patch < weights.size(); ++patch)
+    out.value += dot(weights[patch].force, control_loads_[at][patch].force) +
+                 dot(weights[patch].moment, control_loads_[at][patch].moment);
+  return out;
+}
+
 std::vector<TableRow> AdjointDerivatives::rows(const Adjoints& adjoints,
                                                std::vector<std::string>& shortfalls) const {
   const Case& settings = flow_.settings();
@@ -130,6 +155,15 @@ std::vector<TableRow> AdjointDerivatives::rows(const Adjoints& adjoints,
            {stream_[i].by_itself(functional, flow_.setup().domain.patch_names) + adjoint.products[i],
             adjoint.products_error[i]},
            "adjoint, incidence and reduced rates held"});
+    auto controls = controls_;
+    const auto sets = control_sets_of(settings);
+    controls.insert(controls.end(), sets.begin(), sets.end());
+    for (std::size_t i = 0; functional.rates == 0 && i < controls.size(); ++i) {
+      Estimate sum;
+      for (const auto& [control, share] : terms_of(controls[i], settings))
+        sum += share * by_control(functional, adjoint, control);
+      rows.push_back({derivative_name(functional, name(controls[i])), sum, "adjoint, k -> 0"});
+    }
     for (std::size_t i = first; i < rows.size(); ++i)
       rows[i].converged = std::ranges::find(fell_short, functional.name()) == fell_short.end();
   }

@@ -8,6 +8,7 @@
 #include "analysis/table.hpp"
 #include "derivatives/functional.hpp"
 #include "derivatives/linear_derivatives.hpp"
+#include "derivatives/shape_change.hpp"
 #include "derivatives/stream_change.hpp"
 #include "derivatives/surface_sensitivity.hpp"
 
@@ -31,9 +32,9 @@ class AdjointDerivatives {
   bool solve(Adjoints& adjoints);
 
   /// What a table says of the functionals' derivatives: by alpha, q, beta, p and r or by the rates of the
-  /// angles, and by Mach number and gamma with incidence and reduced rates held. Those that rest on something
-  /// that did not reach what was asked for are not converged; adds that to `shortfalls`. Of a flow that has
-  /// not come far to rest none is: what it leaves in the derivatives is in no uncertainty here.
+  /// angles, by controls, and by Mach number and gamma with incidence and reduced rates held. Those that rest
+  /// on something that did not reach what was asked for are not converged; adds that to `shortfalls`. Of a
+  /// flow that has not come far to rest none is: what it leaves in the derivatives is in no uncertainty here.
   std::vector<TableRow> rows(const Adjoints& adjoints, std::vector<std::string>& shortfalls) const;
 
   /// By the place of every point of the walls, of a functional that is none of rates. Collective.
@@ -42,12 +43,17 @@ class AdjointDerivatives {
   const std::vector<Functional>& functionals() const { return functionals_; }
 
  private:
+  Estimate by_control(const Functional& functional, const Adjoint& adjoint, Variable control) const;
   std::vector<std::string> unconverged(const Adjoints& adjoints, std::vector<std::string>& shortfalls) const;
 
   FlowCase& flow_;
   std::vector<Functional> functionals_;
   SolveObserver observer_;
   std::vector<StreamChange> stream_;
+  std::vector<Variable> controls_;
+  std::vector<HeldFlowChange> shapes_;  // [controls]
+  std::vector<std::vector<Load>>
+      control_loads_;  // [controls][patches] of the flow that is held, over all ranks
   AdjointSolver solver_;
 };
 

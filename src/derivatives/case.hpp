@@ -38,6 +38,17 @@ struct OutputSettings {
   std::string folder;   ///< default: runs/<name of the case file>
   bool flow = true;     ///< write flow.vtkhdf
   bool surface = true;  ///< write surface.vtkhdf
+  int stations = 100;   ///< of distributions along the body and along panels; 0: none
+};
+
+/// Walls that turn together about a hinge: an all-moving fin, a flap.
+struct ControlSettings {
+  std::string name;
+  std::vector<std::string> patches;
+  Vec3 hinge_point;  ///< for a panel, where its hinge line meets its root
+  Vec3 hinge_axis;   ///< outboard for a panel; the deflection is positive by the right-hand rule about it
+
+  bool operator==(const ControlSettings& other) const = default;
 };
 
 enum class FailureAction { stop, go_on };
@@ -70,6 +81,10 @@ struct Case : FlightCondition {
   std::map<std::string, BoundaryKind> boundary;
   /// Sets of walls whose derivatives are wanted, beside those of each wall by itself.
   Components components;
+  std::vector<ControlSettings> controls;
+  /// Controls deflected together, each by so many rad for one of the set, by the name of the set.
+  std::map<std::string, std::map<std::string, Real>> control_sets;
+  std::map<std::string, Real> deflections;    ///< of controls in the steady flow, degrees
   std::map<std::string, int> boundary_lines;  ///< where the case file names the patches, for messages
   SpaceSettings space;
   SteadySettings steady;

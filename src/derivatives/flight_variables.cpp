@@ -33,7 +33,7 @@ Variable angle_of(Variable variable) {
 int rates_in(Variable variable) {
   using enum Variable;
   if (variable == alphaddot || variable == betaddot) return 2;
-  return variable == alphadot || variable == betadot ? 1 : 0;
+  return variable == alphadot || variable == betadot || is_control_rate(variable) ? 1 : 0;
 }
 
 Real rate_scale(Variable variable, const FlightCondition& settings) {

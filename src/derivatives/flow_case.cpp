@@ -65,6 +65,23 @@ std::optional<std::string> shortfall_of(const SteadyResult& result, const FlowCa
   return text + ", worst: " + named(flow.iteration().worst_cells(named_cells));
 }
 
+/// Walls in a plane of symmetry cannot turn; where they meet others that stay they are held.
+void check_control(const ControlSettings& control, const FlowCase& flow) {
+  constexpr Real negligible = 1e-6, much = 0.3;
+  const auto [displacement, at_walls, at_symmetry] =
+      deflection(flow.discretization(), control.patches, hinge_of(control), flow.communicator());
+  if (at_symmetry > negligible)
+    throw InputError(flow.settings().file, 0,
+                     fmt::format("control {} turns walls out of the plane of symmetry", control.name),
+                     "use a full model, or a hinge across that plane");
+  if (at_walls > much)
+    spdlog::warn(
+        "control {}: where its walls meet others that stay they lose up to {:.0f} % of their displacement; "
+        "name "
+        "all patches of what turns, and mesh a gap where it has one",
+        control.name, 100 * at_walls);
+}
+
 }  // namespace
 
 std::string named(std::span<const SuspectCell> cells) {
@@ -85,6 +102,11 @@ FlowCase::FlowCase(Setup setup, const Communicator& comm)
           discretization_, comm,
           make_linear_solver(discretization_, comm, setup_.settings.steady, pass_order(motion_.wind().x)),
           setup_.settings.reference.moment_center) {
+  make_lee_dissipative();
+  deflect_controls();
+}
+
+void FlowCase::make_lee_dissipative() {
   if (!settings().space.dissipative_lee || norm(motion_.wind()) <= 1) return;
   auto cells = lee_cells(discretization_, comm_);
   const auto owned = cells.begin() + setup_.domain.owned_cells;
@@ -95,6 +117,27 @@ FlowCase::FlowCase(Setup setup, const Communicator& comm)
       "{} cells behind walls that face aft are of first order, with Van Leer's flux "
       "(space.dissipative_lee)",
       dissipative_cells_);
+}
+
+PanelFrame frame_of(const ControlSettings& control) {
+  const Hinge hinge = hinge_of(control);
+  return {hinge.point, hinge.axis};
+}
+
+void FlowCase::deflect_controls() {
+  for (const auto& control : settings().controls) check_control(control, *this);
+  for (const auto& [name, degrees] : settings().deflections) {
+    const auto& control = *std::ranges::find(settings().controls, name, &ControlSettings::name);
+    if (!deflect(setup_.domain, discretization_, control.patches, hinge_of(control),
+                 degrees * radians_per_degree, comm_))
+      throw InputError(settings().file, 0,
+                       fmt::format("the mesh folds while {} is deflected by {:g} degrees", name, degrees),
+                       "deflect it less, or mesh it deflected");
+  }
+}
+
+Hinge hinge_of(const ControlSettings& control) {
+  return {control.hinge_point, 1 / norm(control.hinge_axis) * control.hinge_axis};
 }
 
 Conditions<Real> FlowCase::conditions() const {

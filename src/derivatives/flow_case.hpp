@@ -9,7 +9,9 @@
 #include <string>
 #include <vector>
 
+#include "analysis/panel.hpp"
 #include "derivatives/setup.hpp"
+#include "march/deflection.hpp"
 #include "march/steady.hpp"
 #include "march/treatment.hpp"
 #include "motion/motion.hpp"
@@ -78,6 +80,9 @@ class FlowCase {
   const std::optional<std::string>& shortfall() const { return shortfall_; }
 
  private:
+  void make_lee_dissipative();
+  void deflect_controls();
+
   Setup setup_;
   const Communicator& comm_;
   Discretization discretization_;
@@ -91,6 +96,10 @@ class FlowCase {
   std::string remark_;
   std::optional<std::string> shortfall_;
 };
+
+/// Of a control by its settings.
+Hinge hinge_of(const ControlSettings& control);
+PanelFrame frame_of(const ControlSettings& control);  ///< of its panel
 
 /// "cell 7 at (1, 2, 3), cell 8 at ...": the first few.
 std::string named(std::span<const SuspectCell> cells);

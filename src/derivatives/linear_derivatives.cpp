@@ -4,12 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <string>
 #include <utility>
 
 #include "core/log.hpp"
+#include "derivatives/controls.hpp"
 #include "derivatives/flight_variables.hpp"
+#include "derivatives/load_distributions.hpp"
 #include "derivatives/loads.hpp"
 #include "derivatives/part.hpp"
 #include "derivatives/sensitivity.hpp"
@@ -19,64 +20,9 @@ namespace alphadot {
 
 namespace {
 
-/// What a variable is the rate of.
-std::optional<Variable> rate_of(Variable variable) {
-  using enum Variable;
-  switch (variable) {
-    case alphadot:
-      return alpha;
-    case betadot:
-      return beta;
-    case alphaddot:
-      return alphadot;
-    case betaddot:
-      return betadot;
-    default:
-      return std::nullopt;
-  }
-}
-
-/// The problem of one variable. Those of the rates of the angles need the responses to the angles.
-SensitivityProblem problem_of(ResponseKey key, const FlowCase& flow, const Responses& responses) {
-  const auto [variable, limiter_held] = key;
-  SensitivityProblem out{std::string(name(variable)), change_of(variable, flow.settings().freestream)};
-  const bool has_rate = variable == Variable::alpha || variable == Variable::beta ||
-                        (flow.settings().derivatives.second_order && rates_in(variable) == 1);
-  if (has_rate) out.further_orders = 1;
-  if (const auto angle = rate_of(variable)) {
-    const auto& response = responses.at({*angle, limiter_held});
-    out.rate = response.field;
-    out.rate_error = response.relative_error;
-  }
-  return out;
-}
-
-/// Variables that are solved for together, in this order: angles and rotations, then the rates of the angles,
-/// then their rates.
-std::vector<std::vector<Variable>> groups_of(const Case& settings) {
-  using enum Variable;
-  std::vector<std::vector<Variable>> out;
-  if (settings.reference.half_model)
-    out = {{alpha, q}, {alphadot}, {alphaddot}};
-  else
-    out = {{alpha, beta, q}, {p, r}, {alphadot, betadot}, {alphaddot, betaddot}};
-  if (!settings.derivatives.second_order) out.pop_back();
-  return out;
-}
-
-CoefficientsOf<Estimate> column_of(Variable variable, const Sensitivity& solution, const Part& part,
-                                   const FlightCondition& settings) {
-  const Real scale = rate_scale(variable, settings);
-  const auto values = coefficients(scale * part.of(solution.loads, solution.total), settings);
-  const auto errors = coefficients(scale * part.of(solution.loads_error, solution.total_error), settings);
-  CoefficientsOf<Estimate> out;
-  for (int i = 0; i < Coefficients::size(); ++i) out[i] = {values[i], std::abs(errors[i])};
-  return out;
-}
-
 /// Solves for all variables but those that have been solved for, and says of each how that went. False when
 /// the observer ended it.
-bool solve_all(const FlowCase& flow, SensitivitySolver& solver, Responses& responses, bool limiter_held,
+bool solve_all(FlowCase& flow, SensitivitySolver& solver, Responses& responses, bool limiter_held,
                const SolveObserver& observer, LinearDerivatives& out) {
   if (limiter_held) {
     spdlog::info("once more with the limiter's factors held");
@@ -85,10 +31,7 @@ bool solve_all(const FlowCase& flow, SensitivitySolver& solver, Responses& respo
   auto& unconverged = out.estimated.unconverged;
   for (const auto& group : groups_of(flow.settings())) {
     if (!responses.contains({group.front(), limiter_held})) {
-      std::vector<SensitivityProblem> problems;
-      for (const auto variable : group)
-        problems.push_back(problem_of({variable, limiter_held}, flow, responses));
-      auto solved = solver.solve(problems);
+      auto solved = solve_group(solver, group, limiter_held, flow, responses);
       if (solved.empty()) return false;
       for (std::size_t i = 0; i < group.size(); ++i)
         responses[{group[i], limiter_held}] = std::move(solved[i]);
@@ -105,6 +48,9 @@ bool solve_all(const FlowCase& flow, SensitivitySolver& solver, Responses& respo
       if (!shortfall.empty()) out.shortfalls.push_back(std::move(shortfall));
     }
   }
+  for (const auto variable : variables_of(flow.settings()))
+    for (const auto& [term, share] : terms_of(variable, flow.settings()))
+      if (unconverged.contains(term)) unconverged.insert(variable);
   return true;
 }
 
@@ -133,12 +79,7 @@ Responses solve_nearer(FlowCase& flow, SensitivitySolver& solver, const Response
   SensitivitySolver better(flow.iteration(), flow.conditions(), settings, go_on);
   Responses out;
   for (const auto& group : groups_of(flow.settings())) {
-    std::vector<SensitivityProblem> problems;
-    for (const auto variable : group) {
-      problems.push_back(problem_of({variable}, flow, out));
-      problems.back().guess = responses.at({variable}).field;
-    }
-    auto changed = better.solve(problems);
+    auto changed = solve_group(better, group, false, flow, out, &responses);
     if (changed.empty()) return {};
     for (std::size_t i = 0; i < group.size(); ++i) out[{group[i]}] = std::move(changed[i]);
   }
@@ -159,16 +100,14 @@ class Estimation {
     EstimatedDerivatives out;
     UncertaintyPart linear{"linear", {}}, steady{"steady", {}}, limiter{"limiter", {}};
     const bool has_limiter = flow_.settings().derivatives.limiter_uncertainty;
-    for (const auto& group : groups_of(flow_.settings()))
-      for (const auto variable : group) {
-        const auto& column = out.derivatives[variable] =
-            column_of(variable, responses_.at({variable}), part, settings);
-        for (int i = 0; i < column.size(); ++i) linear.half_width[variable][i] = column[i].uncertainty;
-        steady.half_width[variable] = steady_half_width(variable, column, part, settings);
-        if (has_limiter)
-          limiter.half_width[variable] =
-              change(column, column_of(variable, responses_.at({variable, true}), part, settings));
-      }
+    for (const auto variable : variables_of(flow_.settings())) {
+      const auto& column = out.derivatives[variable] = column_of(variable, responses_, part, settings);
+      for (int i = 0; i < column.size(); ++i) linear.half_width[variable][i] = column[i].uncertainty;
+      for (const auto& [term, share] : terms_of(variable, flow_.settings()))
+        steady.half_width[variable] += std::abs(share) * steady_half_width(term, part, settings);
+      if (has_limiter)
+        limiter.half_width[variable] = change(column, column_of(variable, responses_, part, settings, true));
+    }
     out.parts.push_back(std::move(linear));
     out.add(steady.source, std::move(steady.half_width));
     if (has_limiter) out.add(limiter.source, std::move(limiter.half_width));
@@ -176,6 +115,21 @@ class Estimation {
   }
 
  private:
+  /// Of a set of controls the sum.
+  CoefficientsOf<Estimate> column_of(Variable variable, const Responses& responses, const Part& part,
+                                     const FlightCondition& settings, bool limiter_held = false) const {
+    const Real scale = rate_scale(variable, settings);
+    CoefficientsOf<Estimate> out;
+    for (const auto& [term, share] : terms_of(variable, flow_.settings())) {
+      const auto& solution = responses.at({term, limiter_held});
+      const auto values = coefficients(share * scale * part.of(solution.loads, solution.total), settings);
+      const auto errors =
+          coefficients(share * scale * part.of(solution.loads_error, solution.total_error), settings);
+      for (int i = 0; i < out.size(); ++i) out[i] = out[i] + Estimate{values[i], std::abs(errors[i])};
+    }
+    return out;
+  }
+
   static Coefficients change(const CoefficientsOf<Estimate>& before, const CoefficientsOf<Estimate>& after) {
     Coefficients out;
     for (int i = 0; i < out.size(); ++i) out[i] = std::abs(after[i].value - before[i].value);
@@ -184,17 +138,16 @@ class Estimation {
 
   /// What the steady residual still does: a share of what is large in the variable's column of the whole, or
   /// by how much the column changes in the flow that is nearer to the steady one.
-  Coefficients steady_half_width(Variable variable, const CoefficientsOf<Estimate>& column, const Part& part,
-                                 const FlightCondition& settings) const {
-    const auto whole = column_of(variable, responses_.at({variable}), {}, settings);
+  Coefficients steady_half_width(Variable variable, const Part& part, const FlightCondition& settings) const {
+    const auto column = column_of(variable, responses_, part, settings),
+               whole = column_of(variable, responses_, {}, settings);
     Coefficients out;
     if (nearer_.empty()) {
       out = steady_error(flow_.steady_orders()) * largest_of(change({}, whole), arm_);
     } else {
-      const auto& better = nearer_.at({variable});
-      const auto largest = largest_of(change(whole, column_of(variable, better, {}, settings)), arm_);
+      const auto largest = largest_of(change(whole, column_of(variable, nearer_, {}, settings)), arm_);
       out = step_safety *
-            (change(column, column_of(variable, better, part, settings)) + of_other_components * largest);
+            (change(column, column_of(variable, nearer_, part, settings)) + of_other_components * largest);
     }
     if (settings.reference.half_model) out.CY = out.Cl = out.Cn = 0;  // the mirror image cancels them
     return out;
@@ -217,6 +170,16 @@ std::vector<ComponentDerivatives> component_derivatives(const FlowCase& flow, co
   return out;
 }
 
+/// What each panel that turns contributes, by itself.
+std::vector<PanelDerivatives> panel_derivatives(const FlowCase& flow, const Estimation& estimation) {
+  const Case& settings = flow.settings();
+  std::vector<PanelDerivatives> out;
+  for (const auto& control : settings.controls)
+    out.push_back({control.name, frame_of(control),
+                   estimation.of({control.patches, flow.setup().domain.patch_names}, of_one_side(settings))});
+  return out;
+}
+
 }  // namespace
 
 Real steady_error(Real steady_orders) {
@@ -234,12 +197,21 @@ LinearDerivatives linear_derivatives(FlowCase& flow, Responses& responses, const
   const auto& settings = flow.settings().derivatives;
   SensitivitySolver solver(flow.iteration(), flow.conditions(), settings, observer.go_on);
   LinearDerivatives out;
-  const auto ended = [&] { return LinearDerivatives{{}, {}, std::move(out.shortfalls)}; };
+  const auto ended = [&] {
+    LinearDerivatives nothing;
+    nothing.shortfalls = std::move(out.shortfalls);
+    return nothing;
+  };
   if (!solve_all(flow, solver, responses, false, observer, out)) return ended();
   Responses nearer;
   if (flow.steady_orders() < deep_steady_orders) {
     nearer = solve_nearer(flow, solver, responses, observer.go_on);
     if (nearer.empty()) return ended();
+  }
+  if (flow.settings().output.stations > 0) {
+    const LoadDistributions distributions(flow, solver, responses);
+    out.along_body = distributions.along_body();
+    out.along_panels = distributions.along_panels();
   }
   if (settings.limiter_uncertainty && !solve_all(flow, solver, responses, true, observer, out))
     return ended();
@@ -248,6 +220,7 @@ LinearDerivatives linear_derivatives(FlowCase& flow, Responses& responses, const
   out.estimated = estimation.of({}, flow.settings());
   out.estimated.unconverged = std::move(unconverged);
   out.components = component_derivatives(flow, estimation);
+  out.panels = panel_derivatives(flow, estimation);
   return out;
 }
 

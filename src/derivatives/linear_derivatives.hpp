@@ -1,25 +1,17 @@
 // All stability derivatives of a case from linear solves about its steady flow.
 #pragma once
 
-#include <compare>
 #include <functional>
-#include <map>
 #include <string>
 #include <vector>
 
 #include "analysis/derivatives.hpp"
+#include "analysis/panel.hpp"
+#include "derivatives/distribution.hpp"
 #include "derivatives/flow_case.hpp"
-#include "derivatives/sensitivity.hpp"
+#include "derivatives/responses.hpp"
 
 namespace alphadot {
-
-/// What was solved for, and whether the limiter's factors were held meanwhile.
-struct ResponseKey {
-  Variable variable;
-  bool limiter_held = false;
-  auto operator<=>(const ResponseKey&) const = default;
-};
-using Responses = std::map<ResponseKey, Sensitivity>;
 
 /// Whoever goes along with linear solves.
 struct SolveObserver {
@@ -37,13 +29,24 @@ struct ComponentDerivatives {
   EstimatedDerivatives one_side;   ///< of a half model: all loads of the walls of the mesh alone
 };
 
+/// What the panel of a control has, without the mirror image of a half model.
+struct PanelDerivatives {
+  std::string control;
+  PanelFrame frame;
+  EstimatedDerivatives estimated;  ///< of its walls, about the case's moment centre
+};
+
 /// What linear solves give.
 struct LinearDerivatives {
   /// About the case's moment centre, per rad and reduced rate. The parts are "linear", "steady" and, when the
   /// case asks for it, "limiter". No derivatives: the observer ended the solves.
   EstimatedDerivatives estimated;
   std::vector<ComponentDerivatives> components;  ///< each wall, and each set of walls of the case, by name
-  std::vector<std::string> shortfalls = {};      ///< solves that did not reach their tolerance
+  std::vector<PanelDerivatives> panels;          ///< of every control
+  /// Of the steady loads and all derivatives: along x of the whole and of the sets of walls; along each panel
+  /// of a control, in its own frame. None when the case asks for no stations.
+  std::vector<Distribution> along_body = {}, along_panels = {};
+  std::vector<std::string> shortfalls = {};  ///< solves that did not reach their tolerance
 };
 
 /// Solves for all derivatives about the steady flow that `flow` has marched to: alpha, q, alphadot, on a full

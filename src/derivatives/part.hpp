@@ -19,6 +19,10 @@ Components components_of(const Case& settings);
 /// What the loads of a half model are without its mirror image: coefficients of the walls of the mesh alone.
 FlightCondition of_one_side(FlightCondition settings);
 
+/// Positions of patches among all patches.
+std::vector<std::size_t> numbers_of_patches(std::span<const std::string> patches,
+                                            std::span<const std::string> patch_names);
+
 /// Some walls, or all of them.
 class Part {
  public:

@@ -37,6 +37,8 @@ class ForwardOperator {
       if (!problems_[k].rate.empty()) add_mass_term(iteration_, 1, problems_[k].rate, images[k]);
       for (std::size_t cell = 0; cell < problems_[k].defect.size(); ++cell)
         images[k][cell] += problems_[k].defect[cell];
+      for (std::size_t patch = 0; patch < problems_[k].own_loads.size(); ++patch)
+        loads_[k][patch] += problems_[k].own_loads[patch];
     }
   }
   std::vector<Real> functionals(std::size_t k) const { return numbers_of(loads_[k]); }
@@ -86,6 +88,15 @@ Sensitivity sensitivity_of(const SensitivityProblem& problem, Real orders, std::
 SensitivitySolver::SensitivitySolver(ImplicitIteration& iteration, const Conditions<Real>& conditions,
                                      const DerivativeSettings& settings, std::function<bool()> go_on)
     : basis_(iteration, conditions, settings, std::move(go_on)) {}
+
+std::vector<Load> SensitivitySolver::face_loads(const SensitivityProblem& problem,
+                                                std::span<const Primitive<Real>> solution) {
+  Tangent<1> tangent(basis_.linearisation, basis_.iteration.moment_center());
+  std::vector<Conserved<Real>> image(solution.size());
+  tangent.apply({solution}, {problem.change}, {image});
+  return alphadot::face_loads(basis_.iteration.discretization(), tangent.pressures()[0],
+                              basis_.iteration.moment_center());
+}
 
 std::vector<Sensitivity> SensitivitySolver::solve(const std::vector<SensitivityProblem>& problems) {
   std::vector<Sensitivity> out;

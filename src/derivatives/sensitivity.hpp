@@ -24,6 +24,8 @@ struct SensitivityProblem {
   Real further_orders = 0;  ///< decades beyond those of the settings, for a response whose rate is wanted
   /// Added to the left side, [owned_cells]; or empty. The steady residual makes U a step of Newton's method.
   std::span<const Conserved<Real>> defect = {};
+  /// What the loads of every patch change by while the flow is held, of this rank only; or empty.
+  std::span<const Load> own_loads = {};
   /// What the solution is looked for from, [owned_cells]; or empty for zero. The decades then count from its
   /// own residual.
   std::span<const Primitive<Real>> guess = {};
@@ -60,6 +62,10 @@ class SensitivitySolver {
   /// Nothing when `go_on` said no. Throws DivergedError when a march grows: the steady state then hides an
   /// unstable cell. Collective.
   std::vector<Sensitivity> solve(const std::vector<SensitivityProblem>& problems);
+
+  /// [boundary_faces] change of the loads of faces with a solution of `problem`, but for what they change by
+  /// while the flow is held. Collective.
+  std::vector<Load> face_loads(const SensitivityProblem& problem, std::span<const Primitive<Real>> solution);
 
  private:
   DerivativeBasis basis_;

@@ -25,6 +25,7 @@ struct DerivativeSettings {
   int directions = 80;  ///< of the Krylov space before it begins anew
   int max_iterations = 300;
   bool second_order = false;         ///< also with respect to the second time derivatives of alpha and beta
+  bool control_rates = false;        ///< also with respect to the rates of controls
   bool limiter_uncertainty = false;  ///< solve once more with the limiter's factors held
   std::vector<std::string> coarser_meshes = {};  ///< at most two, the finer first; as mesh.file
 };

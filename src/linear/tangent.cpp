@@ -181,13 +181,18 @@ void Tangent<N>::turn_axes(const std::array<ConditionsChange, N>& changes) {
 }
 
 template <int N>
+std::array<std::vector<Real>, N> Tangent<N>::pressures() const {
+  std::array<std::vector<Real>, N> out;
+  for (int k = 0; k < N; ++k)
+    for (const auto& changes : pressures_) out[static_cast<std::size_t>(k)].push_back(changes.d[k]);
+  return out;
+}
+
+template <int N>
 std::array<std::vector<Load>, N> Tangent<N>::loads() const {
   std::array<std::vector<Load>, N> out;
-  std::vector<Real> pressures(pressures_.size());
-  for (int k = 0; k < N; ++k) {
-    for (std::size_t i = 0; i < pressures.size(); ++i) pressures[i] = pressures_[i].d[k];
-    out[static_cast<std::size_t>(k)] = wall_loads(discretization_, pressures, moment_center_);
-  }
+  const auto of_faces = pressures();
+  for (std::size_t k = 0; k < N; ++k) out[k] = wall_loads(discretization_, of_faces[k], moment_center_);
   return out;
 }
 

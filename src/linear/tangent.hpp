@@ -34,6 +34,8 @@ class Tangent {
   void apply(const Fields& fields, const std::array<ConditionsChange, N>& changes, const Images& images);
   /// Change of every patch's load that goes with the fields of the latest apply(), of this rank only.
   std::array<std::vector<Load>, N> loads() const;
+  /// [boundary_faces] change of the pressure likewise.
+  std::array<std::vector<Real>, N> pressures() const;
 
   std::size_t bytes() const {
     return flow_.bytes() + reconstruction_.bytes() + values_.size() * sizeof(values_[0]) +

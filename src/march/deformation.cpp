@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "march/blend.hpp"
 #include "partition/geometry.hpp"
 #include "space/influence.hpp"
 
@@ -11,12 +12,8 @@ namespace alphadot {
 
 namespace {
 
-/// 1 over the first tenth of the way, where shocks are smeared, 0 at its end, two continuous derivatives
-/// between.
-Real blend(Real way) {
-  const Real s = std::clamp((way - 0.1) / 0.9, Real{0}, Real{1});
-  return 1 - s * s * s * (10 - s * (15 - 6 * s));
-}
+/// Of the way on which a grid comes to rest: there shocks are smeared.
+constexpr Real still_disturbed = 0.1;
 
 }  // namespace
 
@@ -28,7 +25,7 @@ std::vector<Real> follow_shares(const Discretization& discretization, const Vec3
   for (std::size_t point = 0; point < out.size(); ++point) out[point] = influence.distance(points[point]);
   const Real farthest = comm.max(out.empty() ? 0 : std::ranges::max(out));
   const Real room = std::max(farthest, influence.body_size());
-  for (Real& share : out) share = blend(share / room);
+  for (Real& share : out) share = blend((share / room - still_disturbed) / (1 - still_disturbed));
   return out;
 }
 

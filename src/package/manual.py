@@ -45,6 +45,12 @@ the flow, for ParaView 5.11 or later
 .I derivatives.csv, derivatives.st, derivatives.jsbsim.xml
 of the verb derivatives: for spreadsheets, readers of AVL's files and JSBSim
 .TP
+.I components.csv, along_body.csv
+what each wall and set of walls contributes to every derivative; where along x they sit
+.TP
+.I panels.csv, along_panels.csv
+loads of the panels of controls in their own frames; where along their spans they sit
+.TP
 .I adjoint.csv, adjoint.vtkhdf, surface_sensitivity.csv, surface_sensitivity.vtkhdf
 of the verb adjoint: derivatives; which cells, and which places of the walls, each load listens to
 .TP

@@ -49,6 +49,7 @@ class Discretization {
   const FluxModel& flux() const { return flux_; }
   const FluxModel& dissipative_flux() const { return dissipative_flux_; }
   const FluxModel& flux_of(Index face) const { return is_dissipative(face) ? dissipative_flux_ : flux_; }
+  const std::vector<std::uint8_t>& dissipative_cells() const { return dissipative_; }
   bool has_dissipative_cells() const { return !dissipative_.empty(); }
   /// Whether a cell beside a face between cells is dissipative.
   bool is_dissipative(Index face) const {

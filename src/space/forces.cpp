@@ -23,24 +23,39 @@ Load total_of(std::span<const Load> loads) {
   return out;
 }
 
-std::vector<Load> wall_loads(const Discretization& discretization, std::span<const Real> excess_pressures,
+std::vector<Real> excess_pressures(const Discretization& discretization, const Residual<Real>& residual) {
+  std::vector<Real> excess(residual.boundary_pressures().begin(), residual.boundary_pressures().end());
+  for (Real& pressure : excess) pressure -= 1 / discretization.gamma();
+  return excess;
+}
+
+std::vector<Load> face_loads(const Discretization& discretization, std::span<const Real> excess_pressures,
                              const Vec3& center) {
   const Subdomain& domain = discretization.domain();
-  std::vector<Load> loads(domain.patch_names.size());
-  for (std::size_t i = 0; i < domain.boundary_faces.size(); ++i) {
-    const auto& face = domain.boundary_faces[i];
-    if (discretization.kind_of(face) != BoundaryKind::wall) continue;
+  std::vector<Load> out(domain.boundary_faces.size());
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    if (discretization.kind_of(domain.boundary_faces[i]) != BoundaryKind::wall) continue;
     const Vec3 force = excess_pressures[i] * domain.boundary_normal[i];
-    loads[face.patch] += Load{force, cross(domain.boundary_center[i] - center, force)};
+    out[i] = {force, cross(domain.boundary_center[i] - center, force)};
   }
-  return loads;
+  return out;
+}
+
+std::vector<Load> patch_loads(const Discretization& discretization, std::span<const Load> of_faces) {
+  const Subdomain& domain = discretization.domain();
+  std::vector<Load> out(domain.patch_names.size());
+  for (std::size_t i = 0; i < of_faces.size(); ++i) out[domain.boundary_faces[i].patch] += of_faces[i];
+  return out;
+}
+
+std::vector<Load> wall_loads(const Discretization& discretization, std::span<const Real> excess_pressures,
+                             const Vec3& center) {
+  return patch_loads(discretization, face_loads(discretization, excess_pressures, center));
 }
 
 std::vector<Load> wall_loads(const Discretization& discretization, const Residual<Real>& residual,
                              const Vec3& center) {
-  std::vector<Real> excess(residual.boundary_pressures().begin(), residual.boundary_pressures().end());
-  for (Real& pressure : excess) pressure -= 1 / discretization.gamma();
-  return wall_loads(discretization, excess, center);
+  return wall_loads(discretization, excess_pressures(discretization, residual), center);
 }
 
 }  // namespace alphadot

@@ -13,21 +13,27 @@ from exact_case import ExactCase, run, table
 from exact import Longitudinal
 
 AREA = {"tiny": 0.18, "coarse": 0.045}  # twice the chord times the width of the slab
+# All of it about the middle of its chord.
+TURNED = '[{name = "turned", patches = ["body", "base"], hinge = {point = [0.5, 0, 0], axis = [0, 1, 0]}}]'
 NAMES = ("CN_alpha", "CN_q", "Cm_q", "CN_alphadot", "Cm_alphadot")
 EXACT = {row["axis_x_over_c"]: row for row in table("wedge/reference/exact_wedge_derivatives.csv")}
 MIDDLE, APEX = 0.5, 0.0  # of the chord, the case's moment centre
 
 
-def derivatives(level: str) -> Longitudinal:
-    """About the middle of the chord, per radian."""
+def computed(level: str) -> dict:
+    settings = {"reference.area": AREA[level], "controls": TURNED, "derivatives.control_rates": "true"}
     with tempfile.TemporaryDirectory() as folder:
-        found = run(Path(folder), "derivatives", "wedge/derivatives.toml", f"wedge_{level}.msh", {"reference.area": AREA[level]})
+        return run(Path(folder), "derivatives", "wedge/derivatives.toml", f"wedge_{level}.msh", settings)
+
+
+def derivatives(found: dict) -> Longitudinal:
+    """About the middle of the chord, per radian."""
     return Longitudinal.of({name: entry["value"] for name, entry in found["derivatives"].items()})
 
 
 class Wedge(ExactCase):
     def test_derivatives(self) -> None:
-        tiny, coarse = derivatives("tiny"), derivatives("coarse")
+        tiny, coarse = map(derivatives, (TINY, COARSE))
         for name in NAMES:
             self.assert_close(name, getattr(coarse, name), EXACT[MIDDLE][name], 0.01)
         # About the apex nothing is a small difference. CN_alpha is right to 1e-3 from the first.
@@ -39,6 +45,20 @@ class Wedge(ExactCase):
         ]  # fmt: skip
         self.assertLess(errors[1], 0.2 * errors[0])
 
+    def test_turned_as_a_whole(self) -> None:
+        """In the stream it is the same as incidence, and its force turns along: CN_turned = CN_alpha - CA, CA_turned = CN = 0. While it
+        turns it pitches, at an incidence that changes: CN_turneddot = CN_q + CN_alphadot."""
+        found = {name: entry["value"] for name, entry in COARSE["derivatives"].items()}
+        exact = EXACT[MIDDLE]
+        for name, expected in (("CN", exact["CN_alpha"] - COARSE["forces"]["CA"]), ("Cm", exact["Cm_alpha"]), ("CA", 0.0)):
+            print(f"{name}_turned {found[f'{name}_turned']:.5f}, exact {expected:.5f}")
+            self.assertAlmostEqual(found[f"{name}_turned"], expected, delta=0.01 * exact["CN_alpha"])
+        for name in ("CN", "Cm"):
+            of_q, of_lag = exact[f"{name}_q"], exact[f"{name}_alphadot"]
+            print(f"{name}_turneddot {found[f'{name}_turneddot']:.5f}, exact {of_q + of_lag:.5f}")
+            self.assertAlmostEqual(found[f"{name}_turneddot"], of_q + of_lag, delta=0.01 * (abs(of_q) + abs(of_lag)))
+
 
 if __name__ == "__main__":
+    TINY, COARSE = map(computed, ("tiny", "coarse"))
     unittest.main()

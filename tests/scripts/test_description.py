@@ -6,14 +6,17 @@ from __future__ import annotations
 import math
 import sys
 import tempfile
+import tomllib
 import unittest
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "scripts"))
 
 from meshing import planforms, profiles
+from meshing.case_file import controls
 from meshing.description import SCHEMAS, describe_keys, read_description
 from meshing.missile import Missile
 from meshing.sections import KINDS, Section
@@ -53,6 +56,29 @@ class Reading(Described):
     def test_names_of_components(self) -> None:
         missile = self.read(BODY + '[[body]]\nshape = "cone"\nlength = 1\ndiameter = 0.8\n[[body]]\nshape = "cylinder"\nlength = 1\n')
         self.assertEqual([segment.name for segment in missile.body.segments], ["nose", "body", "boattail", "body_2"])
+
+    def test_panels_with_a_hinge_are_controls(self) -> None:
+        """Their hinge lines, and signs so that pitch lifts, yaw pushes to starboard and roll turns one way round."""
+        made = lambda missile, model: SimpleNamespace(model=model, mesh=SimpleNamespace(patches=[panel.name for panel in missile.panels]))
+        text = lambda missile, model: tomllib.loads("\n".join(controls(missile, made(missile, model))))
+        missile = self.read(BODY + FINS + "hinge = 0.4\n")
+        full = text(missile, "full")
+        self.assertEqual([control["name"] for control in full["controls"]], ["fin_1", "fin_2", "fin_3", "fin_4"])
+        up, starboard = full["controls"][:2]
+        self.assertEqual((up["patches"], up["hinge"]), (["fin_1"], {"point": [9.4, 0, 0.5], "axis": [0, 0, 1]}))
+        self.assertEqual(starboard["hinge"], {"point": [9.4, 0.5, 0], "axis": [0, 1, 0]})
+        axes = {control["name"]: np.array(control["hinge"]["axis"], dtype=float) for control in full["controls"]}
+        forces = {name: np.cross([1, 0, 0], axis) for name, axis in axes.items()}  # where a positive deflection pushes
+        push = lambda name: sum(share * forces[panel] for panel, share in full["control_sets"][f"fin_{name}"].items())
+        np.testing.assert_allclose([push("pitch"), push("yaw"), push("roll")], [[0, 0, 2], [0, 2, 0], [0, 0, 0]], atol=1e-12)
+        turn = {panel: np.cross(axes[panel], forces[panel])[0] for panel in axes}
+        self.assertEqual({share * turn[panel] for panel, share in full["control_sets"]["fin_roll"].items()}, {1.0})
+        half = text(missile, "half")  # those up and down cannot turn there
+        self.assertEqual([control["name"] for control in half["controls"]], ["fin_2", "fin_4"])
+        self.assertEqual(list(half["control_sets"]), ["fin_pitch"])
+        self.assertEqual(text(self.read(BODY + FINS), "full"), {})
+        wing = self.read(BODY + "[[wings]]\nx = 5\nroot_chord = 1\nspan = 1\nthickness = 0.05\nhinge = 0.5\n")
+        self.assertEqual(text(wing, "full")["control_sets"]["wing_pitch"], {"wing_1": 1, "wing_2": -1})
 
     def test_where_panels_stand(self) -> None:
         # The second of four from up (z) towards starboard (y) is to starboard; x_end - root_chord is the leading edge.

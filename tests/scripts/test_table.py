@@ -193,6 +193,29 @@ class Tables(Workspace):
         self.assertEqual(mat["pitch"]["degrees"].tolist(), [-5, 0, 10])
         self.assertAlmostEqual(mat["pitch"]["dCN"][2, 0, 1], 0.2)
 
+    def test_controls_that_there_are_derivatives_by(self) -> None:
+        """They are linear terms; images below the plane have none, whose panels have other names."""
+        gain = lambda mach: {"CN_tail_pitch": 3 / mach, "Cm_tail_pitch": -12 / mach, "Cl_roll": -0.5}
+
+        def with_controls(*at: float) -> tuple[dict, dict]:
+            steady, derivatives = model(*at)
+            return steady, derivatives | gain(at[0])
+
+        self.made("[[runs]]\nmach = [1.5, 2]\nalpha = [0, 4]\n", with_controls)
+        flight = {"speed": SPEED, "pressure": PRESSURE, "area": AREA, "length": LENGTH}
+        for mach, alpha, pitch, roll in ((1.5, 0, 0.1, 0), (2, 4, -0.05, 0.02), (2, 2, 0, 0)):
+            turned = {"fcs/tail_pitch-rad": pitch, "fcs/roll-rad": roll}
+            found = jsbsim_loads(self.table / "aerodynamics.jsbsim.xml", flown(mach, alpha, **flight, **turned))
+            wanted, by = loads(mach, math.radians(alpha), 0.0), gain(mach)
+            self.assertAlmostEqual(found["Z"], wanted["Z"] - Q_S * by["CN_tail_pitch"] * pitch)
+            self.assertAlmostEqual(found["PITCH"], wanted["PITCH"] + Q_S_L * by["Cm_tail_pitch"] * pitch)
+            self.assertAlmostEqual(found["ROLL"], wanted["ROLL"] + Q_S_L * by["Cl_roll"] * roll)
+        mat = loadmat(self.table / "aero.mat", simplify_cells=True)["aero"]
+        self.assertEqual(mat["Cm_tail_pitch"].tolist(), [[-8, -8], [-6, -6]])
+        self.assertEqual({float(row["CN_tail_pitch"]) for row in self.rows()}, {2.0, 1.5})
+        with h5py.File(self.table / "database.h5") as file:
+            self.assertEqual(file["Cl_roll/value"][:].tolist(), [-0.5] * 4)
+
     def test_what_is_not_converged_is_left_out_and_said(self) -> None:
         ends = {"derivatives_m2_a0": "not_converged", "derivatives_m3_a4": "failed"}
         said = self.made("[[runs]]\nmach = [1.5, 2, 3]\nalpha = [0, 2, 4]\n", status=lambda run: ends.get(run.name, "converged"))
