@@ -51,7 +51,8 @@ std::vector<Real> remaining_error(std::span<const Real> norms, std::span<const s
 }
 
 std::vector<Real> scales_of(const Load& total, Real body_size, std::size_t loads) {
-  const Real force = norm(total.force), moment = std::max(norm(total.moment), moment_arm * body_size * force);
+  const Real force = std::max(norm(total.force), norm(total.moment) / body_size),
+             moment = std::max(norm(total.moment), moment_arm * body_size * norm(total.force));
   const Load one{{force, force, force}, {moment, moment, moment}};
   return numbers_of(std::vector<Load>(loads, one));
 }

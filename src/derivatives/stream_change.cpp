@@ -17,8 +17,9 @@ std::vector<Load> evaluate(ImplicitIteration& iteration, const FlightCondition& 
   MotionSettings steady = settings.motion;
   steady.kind = MotionKind::none;
   const Motion motion(steady, settings.freestream, settings.reference.length);
-  const Discretization discretization(about.domain(), about.patch_kinds(), about.space(),
-                                      settings.freestream.gamma);
+  Discretization discretization(about.domain(), about.patch_kinds(), about.space(),
+                                settings.freestream.gamma);
+  discretization.set_dissipative(about.dissipative_cells());
   Residual<Real> at(discretization, comm);
   at.evaluate(iteration.flow(),
               steady_conditions(motion.wind(), settings.motion.axis_point, settings.freestream.gamma,

@@ -75,5 +75,15 @@ TEST(Scales, OfLoads) {
   EXPECT_DOUBLE_EQ(relative_error(std::vector<Real>{1, 2, 0}, std::vector<Real>{10, 4, 0}), 0.5);
 }
 
+// Roll: forces that symmetry makes zero, but for round-off, must not make its moment unknown.
+TEST(RemainingError, ScalesOfAMomentAlone) {
+  const auto scales = scales_of({{1e-9, 0, 0}, {10, 0, 0}}, 5, 2);
+  ASSERT_EQ(scales.size(), 12u);
+  EXPECT_EQ(scales[0], 2);
+  EXPECT_EQ(scales[3], 10);
+  EXPECT_EQ(scales_of({{3, 0, 4}, {}}, 2, 1)[0], 5);
+  EXPECT_EQ(scales_of({{3, 0, 4}, {}}, 2, 1)[3], 2.5);
+}
+
 }  // namespace
 }  // namespace alphadot
