@@ -49,7 +49,8 @@ Terms terms_of(Variable variable, const Case& settings) {
 
 Deflection deflection_of(const FlowCase& flow, Variable control) {
   const auto& found = *std::ranges::find(flow.settings().controls, name(control), &ControlSettings::name);
-  return deflection(flow.discretization(), found.patches, hinge_of(found), flow.communicator());
+  return deflection(flow.discretization(), turning_patches(found, flow.settings().mesh), hinge_of(found),
+                    flow.communicator());
 }
 
 HeldFlowChange change_by_control(FlowCase& flow, Variable control, bool limiter_held) {

@@ -23,7 +23,7 @@ Real share_below(Real t, const std::array<Real, 3>& corners) {
 
 }  // namespace
 
-Slices::Slices(const Subdomain& domain, std::vector<std::size_t> patches, const Vec3& origin,
+Slices::Slices(const Subdomain& domain, std::span<const std::size_t> patches, const Vec3& origin,
                const Vec3& direction, int count, const Communicator& comm)
     : domain_(domain),
       comm_(comm),

@@ -19,8 +19,8 @@ namespace alphadot {
 class Slices {
  public:
   /// `patches`: by their number. From end to end of them; `direction` is a unit vector. Collective.
-  Slices(const Subdomain& domain, std::vector<std::size_t> patches, const Vec3& origin, const Vec3& direction,
-         int count, const Communicator& comm);
+  Slices(const Subdomain& domain, std::span<const std::size_t> patches, const Vec3& origin,
+         const Vec3& direction, int count, const Communicator& comm);
 
   /// Distances from the origin along the direction, [slices + 1].
   const std::vector<Real>& ends() const { return ends_; }

@@ -13,6 +13,7 @@
 #include "derivatives/loads.hpp"
 #include "linear/block_lu_sgs.hpp"
 #include "linear/lu_sgs.hpp"
+#include "partition/aft_faces.hpp"
 #include "space/lee_cells.hpp"
 
 namespace alphadot {
@@ -69,7 +70,8 @@ std::optional<std::string> shortfall_of(const SteadyResult& result, const FlowCa
 void check_control(const ControlSettings& control, const FlowCase& flow) {
   constexpr Real negligible = 1e-6, much = 0.3;
   const auto [displacement, at_walls, at_symmetry] =
-      deflection(flow.discretization(), control.patches, hinge_of(control), flow.communicator());
+      deflection(flow.discretization(), turning_patches(control, flow.settings().mesh), hinge_of(control),
+                 flow.communicator());
   if (at_symmetry > negligible)
     throw InputError(flow.settings().file, 0,
                      fmt::format("control {} turns walls out of the plane of symmetry", control.name),
@@ -119,6 +121,13 @@ void FlowCase::make_lee_dissipative() {
       dissipative_cells_);
 }
 
+std::vector<std::string> turning_patches(const ControlSettings& control, const MeshSettings& mesh) {
+  auto out = control.patches;
+  for (const auto& patch : control.patches)
+    if (std::ranges::find(mesh.aft_jets, patch) != mesh.aft_jets.end()) out.push_back(aft_name(patch));
+  return out;
+}
+
 PanelFrame frame_of(const ControlSettings& control) {
   const Hinge hinge = hinge_of(control);
   return {hinge.point, hinge.axis};
@@ -128,7 +137,7 @@ void FlowCase::deflect_controls() {
   for (const auto& control : settings().controls) check_control(control, *this);
   for (const auto& [name, degrees] : settings().deflections) {
     const auto& control = *std::ranges::find(settings().controls, name, &ControlSettings::name);
-    if (!deflect(setup_.domain, discretization_, control.patches, hinge_of(control),
+    if (!deflect(setup_.domain, discretization_, turning_patches(control, settings().mesh), hinge_of(control),
                  degrees * radians_per_degree, comm_))
       throw InputError(settings().file, 0,
                        fmt::format("the mesh folds while {} is deflected by {:g} degrees", name, degrees),

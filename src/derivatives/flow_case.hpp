@@ -97,6 +97,9 @@ class FlowCase {
   std::optional<std::string> shortfall_;
 };
 
+/// Patches that a control turns: its own, and the faces that mesh.aft_jets parts from them.
+std::vector<std::string> turning_patches(const ControlSettings& control, const MeshSettings& mesh);
+
 /// Of a control by its settings.
 Hinge hinge_of(const ControlSettings& control);
 PanelFrame frame_of(const ControlSettings& control);  ///< of its panel

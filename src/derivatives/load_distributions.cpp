@@ -79,6 +79,7 @@ std::vector<Distribution> LoadDistributions::along_panels() const {
     auto& shares = out.emplace_back(Distribution{control.name, slices.ends(), {}}).shares;
     const auto add_all = [&](std::string_view by, std::span<const Load> faces) {
       std::vector<std::pair<std::string, std::vector<Real>>> columns;
+      columns.reserve(panel_load_names.size());
       for (const auto name : panel_load_names)
         columns.emplace_back(by.empty() ? std::string(name) : fmt::format("{}_{}", name, by),
                              std::vector<Real>{});

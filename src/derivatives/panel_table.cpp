@@ -24,7 +24,7 @@ NamedNumbers named(const PanelLoads<Estimate>& loads, const ReferenceSettings& r
   NamedNumbers out;
   for (std::size_t i = 0; i < panel_load_names.size(); ++i)
     out.emplace_back(name(panel_load_names[i]), loads[i]);
-  const auto& [normal, hinge, bending] = loads;
+  const Estimate& normal = loads.normal;
   if (!(std::abs(normal.value) > normal.uncertainty)) return out;
   const auto at = [&](const Estimate& moment, Real sign) {
     const Real place = moment.value / normal.value;
@@ -32,8 +32,8 @@ NamedNumbers named(const PanelLoads<Estimate>& loads, const ReferenceSettings& r
                     reference.length * (moment.uncertainty + std::abs(place) * normal.uncertainty) /
                         (std::abs(normal.value) - normal.uncertainty)};
   };
-  out.emplace_back(name("x_cp"), at(hinge, -1));
-  out.emplace_back(name("s_cp"), at(bending, 1));
+  out.emplace_back(name("x_cp"), at(loads.hinge, -1));
+  out.emplace_back(name("s_cp"), at(loads.bending, 1));
   return out;
 }
 

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "derivatives/adjoint.hpp"
+#include "derivatives/flow_case.hpp"
 #include "derivatives/sensitivity.hpp"
 #include "march/deflection.hpp"
 #include "support/ramp.hpp"
@@ -182,6 +183,15 @@ TEST_F(ShapeResponseTest, IsWhatAdjointsSay) {
   const Load total = response().total;
   const Real found = dot(weight.force, total.force) + dot(weight.moment, total.moment);
   EXPECT_NEAR(found, comm.sum(sum), 1e-6 * std::abs(found));
+}
+
+// Blunt edges that mesh.aft_jets has parted from a fin turn with it.
+TEST(Controls, TurnWithTheirAftFaces) {
+  const ControlSettings fin{"fin", {"fin", "tip"}, {}, {0, 1, 0}};
+  MeshSettings mesh;
+  EXPECT_EQ(turning_patches(fin, mesh), fin.patches);
+  mesh.aft_jets = {"body", "fin"};
+  EXPECT_EQ(turning_patches(fin, mesh), (std::vector<std::string>{"fin", "tip", "fin_aft"}));
 }
 
 }  // namespace
