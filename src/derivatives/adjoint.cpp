@@ -90,12 +90,13 @@ class AdjointOperator {
 };
 
 /// The largest sensitivity to a velocity, by which that to a rotation about a point of the body is taken to
-/// be at least moment_arm of the body's size larger; and to anything else as large.
+/// be at least moment_arm of the body's size larger and at most all of it, since symmetry leaves the adjoint
+/// of roll none to velocities; and to anything else as large.
 std::vector<Real> scales_of(std::span<const Real> products, Real body_size) {
   const auto size = [&](std::size_t begin) {
     return std::hypot(products[begin], products[begin + 1], products[begin + 2]);
   };
-  const Real velocity = std::max(size(0), size(3)),
+  const Real velocity = std::max({size(0), size(3), size(6) / body_size}),
              rotation = std::max(size(6), moment_arm * body_size * velocity);
   std::vector<Real> out(6, velocity);
   out.insert(out.end(), 3, rotation);
