@@ -71,6 +71,17 @@ def cell_count(text: str) -> int:
     return value
 
 
+def factor(text: str) -> float:
+    """Of all sizes."""
+    try:
+        value = float(text)
+    except ValueError:
+        value = 0.0
+    if not 0.3 <= value <= 3.0:
+        raise argparse.ArgumentTypeError(f"'{text}' is not a number from 0.3 to 3")
+    return value
+
+
 def parse() -> argparse.Namespace:
     parser = argparse.ArgumentParser(
         prog="alphadot mesh", description=__doc__.replace("mesh.py", "alphadot mesh"),
@@ -85,6 +96,14 @@ def parse() -> argparse.Namespace:
         help=f"one, or up to three for the uncertainty of the mesh; cells of a half model: {levels} (default: coarse)",
     )  # fmt: skip
     sizes.add_argument("--cells", type=cell_count, metavar="N", help="tetrahedra of the mesh instead of a level's")
+    parser.add_argument(
+        "--sizes", nargs="+", type=Path, metavar="FILE",
+        help="adapted to derivatives: indicator.vtkhdf of alphadot adjoint --indicator on an earlier mesh; of several, such as for a range of Mach numbers, the smallest sizes",
+    )  # fmt: skip
+    parser.add_argument(
+        "--factors", nargs="+", type=factor, metavar="F",
+        help="a family of one size field: meshes mesh_F.msh whose sizes are F times as large (0.3 to 3)",
+    )  # fmt: skip
     parser.add_argument("--mach", type=mach_range, metavar="LOW:HIGH", help="in place of the description's range")
     parser.add_argument("--model", choices=MODELS, help="default: half where the missile is symmetric about y = 0")
     parser.add_argument("--stages", type=int, nargs="+", metavar="N", help="of an .ork file, 1 at the nose (default: all)")
@@ -97,8 +116,10 @@ def parse() -> argparse.Namespace:
         parser.error("give a description, or --keys")
     if len(arguments.level) > 3:
         parser.error("at most three levels: the mesh of the case and one or two coarser ones")
-    if arguments.output and arguments.output.suffix in (".msh", ".su2") and len(arguments.level) > 1:
-        parser.error(f"{arguments.output} holds one mesh: give one level, or a folder")
+    if arguments.kept and (arguments.sizes or arguments.factors):
+        parser.error("--kept finds meshes of levels alone: leave --sizes and --factors out")
+    if arguments.output and arguments.output.suffix in (".msh", ".su2") and max(len(arguments.level), len(arguments.factors or [])) > 1:
+        parser.error(f"{arguments.output} holds one mesh: give one level or factor, or a folder")
     return arguments
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import tempfile
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Protocol
@@ -10,6 +11,7 @@ from typing import Protocol
 import gmsh
 import numpy as np
 
+from meshing.adapted_sizes import AdaptedSizes, read_errors
 from meshing.background import set_background
 from meshing.domain import Domain
 from meshing.generator import MESH_ADAPT, generate
@@ -63,14 +65,15 @@ class Made:
 
     mesh: TetMesh
     model: str
-    h: float  # size of cells on the wall, in diameters
+    h: float | None  # size of cells on the wall, in diameters; None: adapted
     report: list[str] = field(default_factory=list)
 
 
-def make_mesh(subject: Missile | Shape, model: str | None, cells: int) -> Made:
+def make_mesh(subject: Missile | Shape, model: str | None, cells: int, indicators: Sequence[Path] = (), factor: float | None = None) -> Made:
     """The mesh of about `cells` tetrahedra, as a half or a full model; None: half where the body is symmetric about y = 0.
 
-    gmsh must be initialised. Raises MeshError.
+    `indicators`: files that tell where earlier meshes made errors. `factor`: of all sizes, as one of a family of meshes of one size field;
+    they have `cells` over its cube, as far as the field tells. gmsh must be initialised. Raises MeshError.
     """
     fluid: Fluid = ShapeFluid(subject) if isinstance(subject, Shape) else MissileFluid(subject)
     sector, unit = fluid.sector, fluid.unit
@@ -79,20 +82,26 @@ def make_mesh(subject: Missile | Shape, model: str | None, cells: int) -> Made:
         raise MeshError("the missile is not symmetric about y = 0, so that it has no half model; use the full one")
     share = 0.5 if model == "half" else 1.0
     sizes = fluid.sizes(LEVELS["coarse"] * 2.0 * sector.share)
-    h = (sizes.cells(sector) * share / sector.share / cells) ** (1.0 / 3.0)
+    if indicators:
+        errors = [read_errors(path, unit, fluid.origin, sector) for path in indicators]
+        sizes = AdaptedSizes(errors, sizes, sector, cells * sector.share / share)
+    h = (factor or 1.0) * (sizes.cells(sector) * share / sector.share / cells) ** (1.0 / 3.0)
     for attempt in range(3):
         part = mesh_sector(fluid, sizes, h)
         got = len(part.tets) * share / sector.share
-        if abs(got / cells - 1.0) <= TOLERANCE:
+        if factor or abs(got / cells - 1.0) <= TOLERANCE:
             break
         h *= (got / cells) ** (1.0 / 3.0)
     mesh, symmetry = unfolded(part, sector, model)
     mesh = fluid.components(mesh)
     mesh.points = mesh.points * unit + fluid.origin
     report = check(mesh) + symmetry
-    report += [f"wall cells of {h * unit:.4g} {subject.unit} = {h:.4f} d, d = {unit:g} {subject.unit}"]
+    if indicators:
+        report += [f"sizes adapted to {', '.join(map(str, indicators))}"]
+    else:
+        report += [f"wall cells of {h * unit:.4g} {subject.unit} = {h:.4f} d, d = {unit:g} {subject.unit}"]
     report += fluid.domain.facts(subject.length, subject.flight, unit)
-    return Made(mesh, model, h, report)
+    return Made(mesh, model, None if indicators else h, report)
 
 
 def mesh_sector(fluid: Fluid, sizes: SizeField, h: float) -> TetMesh:

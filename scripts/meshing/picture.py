@@ -40,9 +40,9 @@ def draw(missile: Missile | Shape, made: Made, path: Path) -> None:
         axes.set_title(title, fontsize=8)
         axes.tick_params(labelsize=7)
     _dimensions(figure.axes, missile, low, high)
-    figure.suptitle(
-        f"{missile.title}: {len(made.mesh.tets):,} tetrahedra ({made.model} model), wall cells {made.h * missile.diameter:.3g} "
-        f"{missile.unit}; lengths in {missile.unit}", fontsize=9)  # fmt: skip
+    sizes = "adapted" if made.h is None else f"wall cells {made.h * missile.diameter:.3g} {missile.unit}"
+    title = f"{missile.title}: {len(made.mesh.tets):,} tetrahedra ({made.model} model), {sizes}; lengths in {missile.unit}"
+    figure.suptitle(title, fontsize=9)
     figure.savefig(path, dpi=110)
     plt.close(figure)
 

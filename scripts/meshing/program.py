@@ -9,7 +9,7 @@ import sys
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import gmsh
@@ -86,7 +86,7 @@ def bare_shape(path: Path) -> Shape:
 def write_mesh(missile: Missile | Shape, arguments: argparse.Namespace, file: Path) -> None:
     """The mesh alone, in the format that the end of the file's name says."""
     with quiet_gmsh():
-        made = made_or_refused(missile, arguments.model, arguments.cells or levels(arguments.level, missile, arguments.model)[0][1])
+        made = made_or_refused(missile, arguments, wanted_meshes(missile, arguments)[0])
         write(made.mesh, file, FORMATS[file.suffix])
     print("\n".join([f"{file}: {missile.title}, {made.model} model", *("  " + line for line in made.report)]))
 
@@ -104,20 +104,20 @@ def quiet_gmsh() -> Iterator[None]:
 def write_all(missile: Missile | Shape, arguments: argparse.Namespace, folder: Path) -> None:
     """Makes and writes everything; each file appears under its name when it is complete."""
     folder.mkdir(parents=True, exist_ok=True)
-    model = arguments.model
-    wanted = [("mesh", arguments.cells)] if arguments.cells else levels(arguments.level, missile, model)
+    wanted = wanted_meshes(missile, arguments)
     lines = [missile.title, *missile.notes]
     first: Made | None = None
     with quiet_gmsh():
-        for name, cells in wanted:
+        for mesh in wanted:
             start = time.process_time()
-            made = made_or_refused(missile, model, cells)
+            made = made_or_refused(missile, arguments, mesh)
             first = first or made
-            write(made.mesh, folder / f"{name}.msh")
-            lines += ["", f"{name}.msh: {made.model} model, {time.process_time() - start:.1f} s of processor"]
+            write(made.mesh, folder / f"{mesh.name}.msh")
+            lines += ["", f"{mesh.name}.msh: {made.model} model, {time.process_time() - start:.1f} s of processor"]
             lines += ["  " + line for line in made.report]
-    files = [f"{name}.msh" for name, _ in wanted]
-    put(folder / "case.toml", case_text(missile, first, files[0], files[1:], arguments.description.name))
+    files = [f"{mesh.name}.msh" for mesh in wanted]
+    coarser = files[1:] if len(files) <= 3 else []  # more than a case takes
+    put(folder / "case.toml", case_text(missile, first, files[0], coarser, arguments.description.name))
     put(folder / "report.txt", "\n".join(lines) + "\n")
     print("\n".join(lines))
     if not arguments.no_picture:
@@ -131,16 +131,30 @@ def write_all(missile: Missile | Shape, arguments: argparse.Namespace, folder: P
     print(f"next: alphadot derivatives {folder / 'case.toml'} --set freestream.mach={missile.flight.mach[1]:g}")
 
 
-def levels(names: list[str], missile: Missile | Shape, model: str | None) -> list[tuple[str, int]]:
-    """Levels with their numbers of cells, the finest first; twice as many for a full model."""
-    full = model == "full" or (model is None and not missile.is_symmetric(1))
-    return sorted(((name, LEVELS[name] * (2 if full else 1)) for name in set(names)), key=lambda level: -level[1])
+@dataclass(frozen=True)
+class Wanted:
+    """A mesh by its name: about so many cells, or one of a family whose sizes are `factor` times those of a mesh of so many."""
+
+    name: str
+    cells: int
+    factor: float | None = None
 
 
-def made_or_refused(missile: Missile | Shape, model: str | None, cells: int) -> Made:
+def wanted_meshes(missile: Missile | Shape, arguments: argparse.Namespace) -> list[Wanted]:
+    """The finest first; levels have twice as many cells in a full model."""
+    full = arguments.model == "full" or (arguments.model is None and not missile.is_symmetric(1))
+    levels = [Wanted(name, LEVELS[name] * (2 if full else 1)) for name in set(arguments.level)]
+    levels.sort(key=lambda level: -level.cells)
+    if arguments.factors:
+        cells = arguments.cells or levels[0].cells
+        return [Wanted(f"mesh_{factor:g}", cells, factor) for factor in sorted(set(arguments.factors))]
+    return [Wanted("mesh", arguments.cells)] if arguments.cells else levels
+
+
+def made_or_refused(missile: Missile | Shape, arguments: argparse.Namespace, mesh: Wanted) -> Made:
     """The mesh, or a MeshError; gmsh raises bare exceptions."""
     try:
-        return make_mesh(missile, model, cells)
+        return make_mesh(missile, arguments.model, mesh.cells, arguments.sizes or [], mesh.factor)
     except MeshError:
         raise
     except Exception as error:

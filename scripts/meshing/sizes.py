@@ -9,6 +9,7 @@ cells grow two and four times as fast.
 
 from __future__ import annotations
 
+import copy
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -114,6 +115,12 @@ class SizeField:
         slowest, fastest = (reach.outside(x, r) for reach in self._reaches)
         cap = np.minimum(np.maximum(INNER + LOOSER * fastest, behind), CAP)
         return np.minimum(wanted, cap + 5.0 / self.stretch * np.maximum(slowest, behind))
+
+    def without_caps(self) -> SizeField:
+        """The same with nothing but growth away from the body."""
+        other = copy.copy(self)
+        other._reaches = []
+        return other
 
     def _around(self, panel: Panel, x: np.ndarray, r: np.ndarray) -> np.ndarray:
         """The points at which a panel may matter: a few diameters around it."""

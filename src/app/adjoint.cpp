@@ -1,7 +1,9 @@
 // The verb "adjoint": what a load is sensitive to, from one linear solve a load.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <atomic>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -15,6 +17,7 @@
 #include "core/csv.hpp"
 #include "core/log.hpp"
 #include "core/timer.hpp"
+#include "derivatives/goal.hpp"
 #include "io/files.hpp"
 #include "io/vtkhdf.hpp"
 
@@ -36,6 +39,37 @@ std::vector<Functional> functionals_of(const std::vector<std::string>& names, co
     });
   if (!problems.empty()) throw InputError(std::move(problems));
   return out;
+}
+
+std::vector<Goal> goals_of(const std::vector<std::string>& names, const Case& settings) {
+  std::vector<Goal> out;
+  std::vector<Problem> problems;
+  for (const auto& name : names)
+    collect(problems, [&] {
+      auto goal = parse_goal(name, "--indicator", settings, settings.boundary);
+      if (std::ranges::find(out, goal.name(), &Goal::name) == out.end()) out.push_back(std::move(goal));
+    });
+  if (!problems.empty()) throw InputError(std::move(problems));
+  return out;
+}
+
+/// Where the mesh's error in the goals is made, for the mesher and for ParaView. False when it was stopped.
+bool write_indicator(CaseRun& run, const std::vector<Goal>& goals, const Adjoints& adjoints,
+                     const SolveObserver& observer) {
+  FlowCase& flow = run.flow();
+  Responses responses;
+  if (!solve_responses(flow, responses, observer)) return false;
+  AdjointSolver solver(flow.iteration(), flow.conditions(), flow.settings().derivatives, observer.go_on);
+  std::vector<DerivativeChain> chains;
+  for (const auto& goal : goals) chains.push_back(chain_of(goal, flow, adjoints, responses));
+  const auto found = indicators(flow.iteration(), flow.conditions(), solver, chains);
+  if (found.empty()) return false;
+  const auto all = joined(found, run.communicator());
+  std::vector<VtkField> fields{{"indicator", all}};
+  for (const auto& one : found) fields.emplace_back("indicator_" + one.name, one.of_cells);
+  write_flow(run.record().folder() + "/indicator.vtkhdf", flow.setup().domain, fields, run.record().origin(),
+             run.communicator());
+  return true;
 }
 
 /// Which cells the loads listen to: what a unit of mass, momentum and energy fed into a cell in a unit of
@@ -98,11 +132,15 @@ void write_surface_sensitivity(const CaseRun& run, AdjointDerivatives& solver, c
 }  // namespace
 
 RunStatus adjoint_verb(const CaseArguments& arguments, const std::vector<std::string>& of,
-                       const Communicator& comm) {
+                       const std::vector<std::string>& adapt_to, const Communicator& comm) {
   const SignalListener signals;
   const Case settings = load_case(arguments.case_file, arguments.overrides, comm);
   check_has_transpose(settings);
-  const auto functionals = functionals_of(of, settings);
+  const auto goals = goals_of(adapt_to, settings);
+  auto functionals = of.empty() && !goals.empty() ? std::vector<Functional>{} : functionals_of(of, settings);
+  for (const auto& goal : goals)
+    if (std::ranges::find(functionals, goal.functional.name(), &Functional::name) == functionals.end())
+      functionals.push_back(goal.functional);
   CaseRun run(settings, arguments, "adjoint", comm);
   run.check_not_in_motion();
   auto& record = run.record();
@@ -114,16 +152,18 @@ RunStatus adjoint_verb(const CaseArguments& arguments, const std::vector<std::st
     run.progress().begin_phase("adjoints");
     Adjoints adjoints;
     const LinearSolves solves(run, [&] { keep(run, adjoints); });
-    AdjointDerivatives solver(run.flow(), functionals, solves.observer());
+    auto solver = std::make_unique<AdjointDerivatives>(run.flow(), functionals, solves.observer());
     adjoints = kept_adjoints(run);
-    const bool is_done = solver.solve(adjoints);
+    bool is_done = solver->solve(adjoints);
     if (is_done) {
       std::vector<std::string> shortfalls;
-      rows = solver.rows(adjoints, shortfalls);
+      rows = solver->rows(adjoints, shortfalls);
       for (auto& shortfall : shortfalls) record.fall_short(std::move(shortfall));
       if (settings.output.flow) write_fields(run, functionals, adjoints);
-      if (settings.output.surface) write_surface_sensitivity(run, solver, adjoints);
+      if (settings.output.surface) write_surface_sensitivity(run, *solver, adjoints);
     }
+    solver.reset();  // its matrices are those of the indicator's solver
+    if (is_done && !goals.empty()) is_done = write_indicator(run, goals, adjoints, solves.observer());
     linear_cpu = timer.cpu();
     return is_done ? marched : RunStatus::interrupted;
   });

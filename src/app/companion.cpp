@@ -10,6 +10,7 @@
 #include <array>
 #include <cerrno>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <vector>
@@ -41,6 +42,9 @@ constexpr const char* python = "/usr/bin/python3";
 int become_companion(const std::string& name, int argc, char** argv) {
   try {
     std::string script = companion_script(name);
+    std::error_code unknown;
+    const fs::path program = fs::read_symlink("/proc/self/exe", unknown);
+    if (!unknown) setenv("ALPHADOT", program.c_str(), 1);  // for scripts that run it
     std::vector<char*> arguments{const_cast<char*>(python), script.data()};
     arguments.insert(arguments.end(), argv + 2, argv + argc);
     arguments.push_back(nullptr);

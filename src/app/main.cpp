@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
@@ -11,6 +12,7 @@
 #include <new>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <system_error>
 
 #include "app/centers.hpp"
@@ -116,8 +118,14 @@ const CLI::Option* add_run_arguments(CLI::App& verb, CaseArguments& arguments) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  // A program of its own, which wants no MPI; its options are its own, too.
-  if (argc > 1 && std::string(argv[1]) == "mesh") return become_companion("mesh.py", argc, argv);
+  // Programs of their own, which want no MPI; their options are their own, too.
+  const std::string verb = argc > 1 ? argv[1] : "";
+  if (verb == "mesh") return become_companion("mesh.py", argc, argv);
+  const auto asks_for_tolerance = [](const char* word) {
+    return std::string_view(word).starts_with("--tolerance");
+  };
+  if (verb == "derivatives" && std::any_of(argv, argv + argc, asks_for_tolerance))
+    return become_companion("adapt.py", argc, argv);
   std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error like a full disk, not the end
   const MpiSession mpi(argc, argv);
   const Communicator comm;
@@ -143,6 +151,13 @@ int main(int argc, char** argv) {
       "derivatives", "Every stability derivative of a case from linear solves, no time stepping");
   add_case_arguments(derivatives, arguments);
   const auto* derivatives_restart = add_run_arguments(derivatives, arguments);
+  std::string tolerance;  // a program of its own reads it
+  derivatives
+      .add_option(
+          "--tolerance", tolerance,
+          "Of a description: meshes adapted to derivatives until intervals are as small as 1%, 0.4 or "
+          "2%CN_alphadot; --tolerance --help tells of its options")
+      ->type_name("T");
 
   std::vector<std::string> loads;
   auto& adjoint = *app.add_subcommand(
@@ -152,6 +167,14 @@ int main(int argc, char** argv) {
       .add_option("--of", loads,
                   "Loads, e.g. Cm,CN,Cm_alphadot or CN@fin_1+fin_2 of some walls or sets (default: all coefficients)")
       ->type_name("LOADS")
+      ->delimiter(',');
+  std::vector<std::string> goals;
+  adjoint
+      .add_option(
+          "--indicator", goals,
+          "Derivatives, e.g. Cm_alpha,Cm_q,Cm_alphadot: where on the mesh their errors are made, into "
+          "indicator.vtkhdf, for alphadot mesh --sizes")
+      ->type_name("DERIVATIVES")
       ->delimiter(',');
   const auto* adjoint_restart = add_run_arguments(adjoint, arguments);
 
@@ -238,7 +261,7 @@ int main(int argc, char** argv) {
     replace_description(arguments, comm);
     if (run) return run_verb(arguments, comm);
     if (derivatives) return derivatives_verb(arguments, comm);
-    if (adjoint) return adjoint_verb(arguments, loads, comm);
+    if (adjoint) return adjoint_verb(arguments, loads, goals, comm);
     if (frequency) return frequency_verb(arguments, reduced_frequencies, comm);
     if (partition) return partition_verb(cut, comm);
     return printed(comm, [&] {

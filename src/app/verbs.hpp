@@ -51,9 +51,10 @@ RunStatus run_verb(const CaseArguments& arguments, const Communicator& comm);
 RunStatus derivatives_verb(const CaseArguments& arguments, const Communicator& comm);
 
 /// Steady state, then the adjoints of loads: `of` names them ("Cm", "Cm_alphadot", "CN@fin_1+fin_2"; none:
-/// all coefficients). Writes their derivatives, and the fields that show which cells a load listens to.
+/// all coefficients). Writes their derivatives, and the fields that show which cells a load listens to. With
+/// derivatives to adapt a mesh to ("Cm_alphadot") also where on the mesh their errors are made.
 RunStatus adjoint_verb(const CaseArguments& arguments, const std::vector<std::string>& of,
-                       const Communicator& comm);
+                       const std::vector<std::string>& adapt_to, const Communicator& comm);
 
 /// Steady state, then its linear responses to flight variables that oscillate at the reduced frequencies `k`
 /// = omega length / 2V: alpha and q, on a full model beta, p and r too.

@@ -67,6 +67,8 @@ class AdjointOperator {
     for (std::size_t k = 0; k < N; ++k) {
       if (with_source && !problems_[k].rate.empty())
         add_transposed_mass_term(iteration_, problems_[k].rate, images[k]);
+      for (std::size_t cell = 0; with_source && cell < problems_[k].source.size(); ++cell)
+        images[k][cell] += problems_[k].source[cell];
       products_[k] = numbers_of(by_conditions[k]);
       for (const auto& change : residual_changes_) products_[k].push_back(dot_product(fields[k], change));
     }

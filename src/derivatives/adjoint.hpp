@@ -24,6 +24,8 @@ struct AdjointProblem {
   std::vector<Load> weights = {};              ///< of every patch's load; none for an adjoint to a rate
   std::span<const Conserved<Real>> rate = {};  ///< psi of the functional, [owned_cells]; or empty
   Real inherited_error = 0;                    ///< relative, of psi or of the flow that the problem is about
+  /// Added to A^T psi, [owned_cells]; or empty.
+  std::span<const Primitive<Real>> source = {};
 };
 
 struct Adjoint {

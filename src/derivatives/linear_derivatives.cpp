@@ -193,6 +193,12 @@ std::string shortfall_of_solve(std::string_view what, Real relative_residual, in
                      -std::log10(relative_residual), orders, iterations);
 }
 
+bool solve_responses(FlowCase& flow, Responses& responses, const SolveObserver& observer) {
+  SensitivitySolver solver(flow.iteration(), flow.conditions(), flow.settings().derivatives, observer.go_on);
+  LinearDerivatives unused;
+  return solve_all(flow, solver, responses, false, observer, unused);
+}
+
 LinearDerivatives linear_derivatives(FlowCase& flow, Responses& responses, const SolveObserver& observer) {
   const auto& settings = flow.settings().derivatives;
   SensitivitySolver solver(flow.iteration(), flow.conditions(), settings, observer.go_on);

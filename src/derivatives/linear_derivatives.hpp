@@ -55,6 +55,10 @@ struct LinearDerivatives {
 LinearDerivatives linear_derivatives(FlowCase& flow, Responses& responses,
                                      const SolveObserver& observer = {});
 
+/// The responses alone, with the limiter free. False when the observer ended the solves. Collective. Throws
+/// DivergedError.
+bool solve_responses(FlowCase& flow, Responses& responses, const SolveObserver& observer = {});
+
 /// Share of what is large in a response by which it may be off since the steady flow is so many decades down,
 /// six or more: a bound.
 Real steady_error(Real steady_orders);

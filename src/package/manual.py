@@ -54,6 +54,12 @@ loads of the panels of controls in their own frames; where along their spans the
 .I adjoint.csv, adjoint.vtkhdf, surface_sensitivity.csv, surface_sensitivity.vtkhdf
 of the verb adjoint: derivatives; which cells, and which places of the walls, each load listens to
 .TP
+.I indicator.vtkhdf
+of the verb adjoint with \-\-indicator: where on the mesh the errors of derivatives are made, for alphadot mesh \-\-sizes
+.TP
+.I adaptation.json, adaptation.csv, convergence.png, cells.png
+of the verb derivatives with \-\-tolerance: values and intervals of every family of meshes, and where its cells are
+.TP
 .I frequency.csv
 of the verb frequency: responses to oscillating variables, of the whole and of every wall
 .TP

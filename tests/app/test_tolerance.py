@@ -1,0 +1,115 @@
+#!/usr/bin/python3
+"""A tolerance in place of a mesh: `alphadot derivatives DESCRIPTION --tolerance T` from outside, on a cone with a cylinder.
+
+Environment: see program.py. The expected value is the same on a mesh without adaptation that has more cells than any of these.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import tempfile
+import time
+import unittest
+from pathlib import Path
+
+from program import PROGRAM, run
+
+MISSILE = """flight = {mach = [1.9, 2.1]}
+[[body]]
+shape = "cone"
+length = 3
+diameter = 1
+[[body]]
+shape = "cylinder"
+length = 2
+"""
+OPTIONS = ("derivatives", "missile.toml", "--goals", "Cm_alpha,Cm_alphadot", "--cells", "20000", "--set", "freestream.mach=2", "--out", "out")
+
+
+class ToleranceTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls) -> None:
+        temporary = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(temporary.cleanup)
+        cls.folder = Path(temporary.name)
+        (cls.folder / "missile.toml").write_text(MISSILE)
+        cls.first = run(cls.folder, *OPTIONS, "--tolerance", "40%,Cm_alphadot=50%CN_alphadot")
+
+    def found(self) -> dict:
+        return json.loads((self.folder / "out" / "adaptation.json").read_text())
+
+    def runs(self) -> dict[str, int]:
+        return {str(file): file.stat().st_mtime_ns for file in sorted((self.folder / "out").rglob("result.json"))}
+
+    def test_holds_what_a_finer_mesh_gives(self) -> None:
+        self.assertEqual(self.first.codes, [0], self.first.err)
+        found = self.found()
+        entries = found["streams"][0]["derivatives"]
+        self.assertLessEqual(entries["Cm_alpha"]["uncertainty"], 0.4 * abs(entries["Cm_alpha"]["value"]))
+        self.assertEqual(len(found["families"][-1]["streams"][0]["members"]), 5)
+        mesh = subprocess.run([PROGRAM, "mesh", "missile.toml", "-o", "fine", "--cells", "60000", "--no-picture"], cwd=self.folder, capture_output=True, text=True)
+        self.assertEqual(mesh.returncode, 0, mesh.stderr)
+        fine = run(self.folder, "derivatives", "fine/case.toml", "--set", "freestream.mach=2", "--out", "fine/run")
+        self.assertEqual(fine.codes, [0], fine.err)
+        for name, entry in json.loads((self.folder / "fine/run/result.json").read_text())["derivatives"].items():
+            if name in entries and not name.startswith("CA"):  # of a body at no incidence these are zero
+                self.assertLessEqual(abs(entry["value"] - entries[name]["value"]), entries[name]["uncertainty"], name)
+
+    def test_finds_again_what_is_there(self) -> None:
+        before, values = self.runs(), self.found()["streams"][0]["derivatives"]
+        start = time.monotonic()
+        again = run(self.folder, *OPTIONS, "--tolerance", "40%,Cm_alphadot=50%CN_alphadot")
+        self.assertEqual(again.codes, [0], again.err)
+        self.assertEqual(self.runs(), before)
+        self.assertEqual(self.found()["streams"][0]["derivatives"], values)
+        # A run that was killed is done again, and that one alone.
+        (killed,) = (self.folder / "out").glob("family_1/run_1.18/cost.json")
+        killed.unlink()
+        self.assertEqual(run(self.folder, *OPTIONS, "--tolerance", "40%,Cm_alphadot=50%CN_alphadot").codes, [0])
+        changed = [file for file, when in self.runs().items() if before.get(file) != when]
+        self.assertEqual(changed, [str(killed.with_name("result.json"))])
+        self.assertEqual(self.found()["streams"][0]["derivatives"]["Cm_alpha"]["value"], values["Cm_alpha"]["value"])
+        self.assertLess(time.monotonic() - start, 60.0)
+
+    def test_a_budget_that_is_too_small_is_said(self) -> None:
+        done = run(self.folder, *OPTIONS, "--tolerance", "0.01%")
+        self.assertEqual(done.codes, [5], done.err)
+        self.assertEqual(self.found()["status"], "out_of_budget")
+        self.assertIn("out_of_budget: the interval of", done.out)
+        self.assertIn("# Status: out_of_budget", (self.folder / "out/adaptation.csv").read_text())
+
+    def test_says_what_is_wrong(self) -> None:
+        (self.folder / "own.toml").write_text('[mesh]\nfile = "own.msh"\n')
+        for options, code, part in (
+            (("missile.toml", "--tolerance", "much"), 1, "'much' is no tolerance"),
+            (("missile.toml", "--tolerance", "Cm_q=1%"), 1, "none of the goals"),
+            (("missing.toml", "--tolerance", "1%"), 1, "no such file"),
+            (("own.toml", "--tolerance", "1%"), 1, "set [mesh] from"),
+            ((*OPTIONS[1:], "--goals", "Cm_r", "--tolerance", "1%"), 1, "holds an adaptation of something else"),
+            (("missile.toml", "--out", "wrong", "--goals", "Cm_beta", "--cells", "20000", "--tolerance", "1%"), 1, "Cm_beta"),
+            (("missile.toml", "--tolerance", "1%", "--cells", "few"), 2, "'few' is no number"),
+        ):
+            done = run(self.folder, "derivatives", *options)
+            self.assertEqual(done.codes, [code], done.err)
+            self.assertIn(part, done.err)
+            self.assertNotIn("Traceback", done.err)
+
+    def test_is_not_started_under_mpirun(self) -> None:
+        command = [os.environ["MPIEXEC"], "-n", "2", PROGRAM, *OPTIONS, "--tolerance", "1%"]
+        done = subprocess.run(command, cwd=self.folder, capture_output=True, text=True)
+        self.assertEqual(done.returncode, 2)
+        self.assertEqual(done.stderr.count("say --ranks N"), 1, done.stderr)
+
+    def test_sizes_from_what_is_none(self) -> None:
+        (self.folder / "none.vtkhdf").write_text("nothing")
+        command = [PROGRAM, "mesh", "missile.toml", "-o", "none", "--cells", "9000", "--no-picture", "--sizes", "none.vtkhdf"]
+        done = subprocess.run(command, cwd=self.folder, capture_output=True, text=True)
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("give indicator.vtkhdf", done.stderr)
+        self.assertNotIn("Traceback", done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
