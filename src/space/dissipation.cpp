@@ -10,10 +10,10 @@ std::vector<Conserved<Real>> dissipation(const Discretization& discretization, c
                                          const Reconstruction<Real>& reconstruction,
                                          const Conditions<Real>& conditions) {
   const Subdomain& domain = discretization.domain();
-  const FluxModel& model = discretization.flux();
   std::vector<Conserved<Real>> out(domain.faces.size());
   for (std::size_t face = 0; face < out.size(); ++face) {
     const auto [left, right] = domain.faces[face];
+    const FluxModel& model = discretization.flux_of(static_cast<Index>(face));
     const auto [area, normal, center] = interior_geometry(domain, face);
     Primitive<Real> wl = flow[left], wr = flow[right];
     if (discretization.space().order > 1) {

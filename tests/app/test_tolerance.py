@@ -14,7 +14,7 @@ import time
 import unittest
 from pathlib import Path
 
-from program import PROGRAM, run
+from program import PROGRAM
 
 MISSILE = """flight = {mach = [1.9, 2.1]}
 [[body]]
@@ -25,7 +25,11 @@ diameter = 1
 shape = "cylinder"
 length = 2
 """
-OPTIONS = ("derivatives", "missile.toml", "--goals", "Cm_alpha,Cm_alphadot", "--cells", "20000", "--set", "freestream.mach=2", "--out", "out")
+OPTIONS = ("derivatives", "missile.toml", "--goals", "Cm_alpha,Cm_alphadot", "--cells", "12000", "--set", "freestream.mach=2", "--out", "out")
+
+
+def run(folder: Path, *arguments: object) -> subprocess.CompletedProcess:
+    return subprocess.run([PROGRAM, *map(str, arguments)], cwd=folder, capture_output=True, text=True, timeout=250)
 
 
 class ToleranceTest(unittest.TestCase):
@@ -44,15 +48,15 @@ class ToleranceTest(unittest.TestCase):
         return {str(file): file.stat().st_mtime_ns for file in sorted((self.folder / "out").rglob("result.json"))}
 
     def test_holds_what_a_finer_mesh_gives(self) -> None:
-        self.assertEqual(self.first.codes, [0], self.first.err)
+        self.assertEqual(self.first.returncode, 0, self.first.stderr)
         found = self.found()
         entries = found["streams"][0]["derivatives"]
         self.assertLessEqual(entries["Cm_alpha"]["uncertainty"], 0.4 * abs(entries["Cm_alpha"]["value"]))
         self.assertEqual(len(found["families"][-1]["streams"][0]["members"]), 5)
-        mesh = subprocess.run([PROGRAM, "mesh", "missile.toml", "-o", "fine", "--cells", "60000", "--no-picture"], cwd=self.folder, capture_output=True, text=True)
+        mesh = subprocess.run([PROGRAM, "mesh", "missile.toml", "-o", "fine", "--cells", "30000", "--no-picture"], cwd=self.folder, capture_output=True, text=True)
         self.assertEqual(mesh.returncode, 0, mesh.stderr)
         fine = run(self.folder, "derivatives", "fine/case.toml", "--set", "freestream.mach=2", "--out", "fine/run")
-        self.assertEqual(fine.codes, [0], fine.err)
+        self.assertEqual(fine.returncode, 0, fine.stderr)
         for name, entry in json.loads((self.folder / "fine/run/result.json").read_text())["derivatives"].items():
             if name in entries and not name.startswith("CA"):  # of a body at no incidence these are zero
                 self.assertLessEqual(abs(entry["value"] - entries[name]["value"]), entries[name]["uncertainty"], name)
@@ -61,13 +65,13 @@ class ToleranceTest(unittest.TestCase):
         before, values = self.runs(), self.found()["streams"][0]["derivatives"]
         start = time.monotonic()
         again = run(self.folder, *OPTIONS, "--tolerance", "40%,Cm_alphadot=50%CN_alphadot")
-        self.assertEqual(again.codes, [0], again.err)
+        self.assertEqual(again.returncode, 0, again.stderr)
         self.assertEqual(self.runs(), before)
         self.assertEqual(self.found()["streams"][0]["derivatives"], values)
         # A run that was killed is done again, and that one alone.
         (killed,) = (self.folder / "out").glob("family_1/run_1.18/cost.json")
         killed.unlink()
-        self.assertEqual(run(self.folder, *OPTIONS, "--tolerance", "40%,Cm_alphadot=50%CN_alphadot").codes, [0])
+        self.assertEqual(run(self.folder, *OPTIONS, "--tolerance", "40%,Cm_alphadot=50%CN_alphadot").returncode, 0)
         changed = [file for file, when in self.runs().items() if before.get(file) != when]
         self.assertEqual(changed, [str(killed.with_name("result.json"))])
         self.assertEqual(self.found()["streams"][0]["derivatives"]["Cm_alpha"]["value"], values["Cm_alpha"]["value"])
@@ -75,9 +79,9 @@ class ToleranceTest(unittest.TestCase):
 
     def test_a_budget_that_is_too_small_is_said(self) -> None:
         done = run(self.folder, *OPTIONS, "--tolerance", "0.01%")
-        self.assertEqual(done.codes, [5], done.err)
+        self.assertEqual(done.returncode, 5, done.stderr)
         self.assertEqual(self.found()["status"], "out_of_budget")
-        self.assertIn("out_of_budget: the interval of", done.out)
+        self.assertIn("out_of_budget: the interval of", done.stdout)
         self.assertIn("# Status: out_of_budget", (self.folder / "out/adaptation.csv").read_text())
 
     def test_says_what_is_wrong(self) -> None:
@@ -88,13 +92,13 @@ class ToleranceTest(unittest.TestCase):
             (("missing.toml", "--tolerance", "1%"), 1, "no such file"),
             (("own.toml", "--tolerance", "1%"), 1, "set [mesh] from"),
             ((*OPTIONS[1:], "--goals", "Cm_r", "--tolerance", "1%"), 1, "holds an adaptation of something else"),
-            (("missile.toml", "--out", "wrong", "--goals", "Cm_beta", "--cells", "20000", "--tolerance", "1%"), 1, "Cm_beta"),
+            (("missile.toml", "--out", "wrong", "--goals", "Cm_beta", "--cells", "12000", "--tolerance", "1%"), 1, "Cm_beta"),
             (("missile.toml", "--tolerance", "1%", "--cells", "few"), 2, "'few' is no number"),
         ):
             done = run(self.folder, "derivatives", *options)
-            self.assertEqual(done.codes, [code], done.err)
-            self.assertIn(part, done.err)
-            self.assertNotIn("Traceback", done.err)
+            self.assertEqual(done.returncode, code, done.stderr)
+            self.assertIn(part, done.stderr)
+            self.assertNotIn("Traceback", done.stderr)
 
     def test_is_not_started_under_mpirun(self) -> None:
         command = [os.environ["MPIEXEC"], "-n", "2", PROGRAM, *OPTIONS, "--tolerance", "1%"]
