@@ -20,6 +20,7 @@ import argparse
 import json
 import os
 import shutil
+import signal
 import sys
 import tomllib
 from pathlib import Path
@@ -117,6 +118,7 @@ def prepare(folder: Path, arguments: argparse.Namespace, description: Path) -> N
 
 def main() -> int:
     arguments = parse()
+    signal.signal(signal.SIGTERM, signal.default_int_handler)
     try:
         tolerances = read_tolerances(arguments.tolerance, arguments.goals)
         description, case, model = description_of(arguments.case)

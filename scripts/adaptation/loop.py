@@ -12,9 +12,10 @@ from adaptation.steps import Cost, Mesh, Solved, StepError, Steps, tell
 from adaptation.tolerance import Tolerance
 
 FIRST = 20_000  # cells of the first mesh, from the description alone
-SMALLEST = 30_000  # of the middle mesh of the first family
+SMALLEST = 25_000  # of the middle mesh of the first family
 ORDER = 2.0 / 3.0  # of an interval in the number of cells
 AIM = 0.8  # of the tolerance
+YIELD = 1.2  # cells that meshes have over those asked for, until a family has told
 LEAST, MOST = 1.5, 6.0  # times as many cells in the next family
 
 
@@ -84,7 +85,7 @@ class Adaptation:
         self._start = time.monotonic()
         self._spent_before = 0.0  # seconds of steps that were found
         self._seconds_a_cell = 0.0
-        self._yield = 1.0  # cells that meshes have over those asked for
+        self._yield = YIELD
 
     def run(self) -> Outcome:
         families: list[Family] = []

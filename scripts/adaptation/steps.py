@@ -6,6 +6,7 @@ import json
 import os
 import resource
 import shutil
+import signal
 import subprocess
 import sys
 import time
@@ -14,7 +15,7 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 
 MESH_PROGRAM = Path(__file__).resolve().parents[1] / "mesh.py"
-COST = "cost.json"
+DONE = "done.json"  # of a step: what was asked, what it cost
 REACHED = ("converged", "completed")
 
 
@@ -40,11 +41,12 @@ class Cost:
 
 @dataclass(frozen=True)
 class Mesh:
-    """A mesh that is there: its case file and its number of cells."""
+    """A mesh that is there: its case file, the mesh itself, and what tells it from one that was made for something else."""
 
     case: Path
     file: Path
     cost: Cost
+    stamp: int = 0
 
 
 @dataclass(frozen=True)
@@ -86,7 +88,9 @@ class Steps:
 
     def mesh(self, folder: Path, cells: int, indicators: Sequence[Path], factor: float | None) -> Mesh:
         """Of about so many cells, or one of a family of them; from the description alone or as the indicators say."""
-        if not (folder / COST).exists():
+        asked = [cells, factor, [str(path) for path in indicators], [path.stat().st_mtime_ns for path in indicators]]
+        done = _done(folder, asked)
+        if done is None:
             partial = folder.with_name(f".{folder.name}.part")
             shutil.rmtree(partial, ignore_errors=True)
             partial.parent.mkdir(parents=True, exist_ok=True)
@@ -95,15 +99,23 @@ class Steps:
             command += ["--factors", factor] if factor else []
             command += ["--model", self.model] if self.model else []
             cost = self._call(command, partial.with_name(f"{folder.name}.log"))
-            write_json(partial / COST, asdict(cost))
+            done = {"asked": asked, "cost": asdict(cost), "stamp": time.time_ns()}
+            write_json(partial / DONE, done)
             shutil.rmtree(folder, ignore_errors=True)
             os.replace(partial, folder)
         (file,) = folder.glob("*.msh")
-        return Mesh(folder / "case.toml", file, _cost_of(folder))
+        return Mesh(folder / "case.toml", file, Cost(**done["cost"]), done["stamp"])
 
     def solve(self, mesh: Mesh, folder: Path, verb: str, settings: Sequence[str], *options: str) -> Solved:
         """Brings a run to its end, from its newest checkpoint where it was stopped. Raises Interrupted, StepError."""
-        if not (folder / COST).exists():
+        asked = [verb, *settings, *options, mesh.stamp]
+        done = _done(folder, asked)
+        if done is None:
+            begun = folder.with_name(f"{folder.name}.begun.json")
+            if begun.exists() and json.loads(begun.read_text()) != asked:
+                shutil.rmtree(folder, ignore_errors=True)
+            folder.parent.mkdir(parents=True, exist_ok=True)
+            write_json(begun, asked)
             case = self.case or mesh.case
             keys = [f"mesh.file={mesh.file.resolve()}", "derivatives.coarser_meshes=[]", "output.surface=false", *self.settings, *settings]
             keys += ["mesh.from="] if self.case else []
@@ -111,11 +123,12 @@ class Steps:
             command += [word for key in keys for word in ("--set", key)]
             if list(folder.glob("checkpoint_*")):
                 command.append("--restart")
-            cost = self._call(command, folder.with_name(f"{folder.name}.log"))
+            done = {"asked": asked, "cost": asdict(self._call(command, folder.with_name(f"{folder.name}.log")))}
             for file in folder.glob("checkpoint_*"):
                 file.unlink()
-            write_json(folder / COST, asdict(cost))
-        return Solved(folder, json.loads((folder / "result.json").read_text()), _cost_of(folder))
+            write_json(folder / DONE, done)
+            begun.unlink()
+        return Solved(folder, json.loads((folder / "result.json").read_text()), Cost(**done["cost"]))
 
     def _launcher(self) -> list[str]:
         return [os.environ.get("MPIEXEC", "mpirun"), "-n", str(self.ranks)] if self.ranks > 1 else []
@@ -125,7 +138,13 @@ class Steps:
         words = [str(word) for word in command]
         before, start = resource.getrusage(resource.RUSAGE_CHILDREN), time.monotonic()
         with open(log, "w") as file:
-            code = subprocess.run(words, stdin=subprocess.DEVNULL, stdout=file, stderr=file).returncode
+            child = subprocess.Popen(words, stdin=subprocess.DEVNULL, stdout=file, stderr=file, start_new_session=True)
+        try:
+            code = child.wait()
+        except KeyboardInterrupt:
+            child.send_signal(signal.SIGUSR2)  # writes a checkpoint and ends; mpirun passes it on
+            child.wait()
+            raise
         after = resource.getrusage(resource.RUSAGE_CHILDREN)
         if code == 3:
             raise Interrupted
@@ -137,8 +156,11 @@ class Steps:
         return Cost(cpu, time.monotonic() - start, 1024 * after.ru_maxrss)
 
 
-def _cost_of(folder: Path) -> Cost:
-    return Cost(**json.loads((folder / COST).read_text()))
+def _done(folder: Path, asked: list) -> dict | None:
+    """Of a step that is there and was asked for the same."""
+    file = folder / DONE
+    done = json.loads(file.read_text()) if file.exists() else {}
+    return done if done.get("asked") == json.loads(json.dumps(asked)) else None
 
 
 def write_json(path: Path, content: object) -> None:

@@ -44,9 +44,10 @@ std::vector<Functional> functionals_of(const std::vector<std::string>& names, co
 std::vector<Goal> goals_of(const std::vector<std::string>& names, const Case& settings) {
   std::vector<Goal> out;
   std::vector<Problem> problems;
+  const auto components = components_of(settings);
   for (const auto& name : names)
     collect(problems, [&] {
-      auto goal = parse_goal(name, "--indicator", settings, settings.boundary);
+      auto goal = parse_goal(name, "--indicator", settings, components);
       if (std::ranges::find(out, goal.name(), &Goal::name) == out.end()) out.push_back(std::move(goal));
     });
   if (!problems.empty()) throw InputError(std::move(problems));

@@ -12,7 +12,7 @@
 namespace alphadot {
 
 Goal parse_goal(std::string_view text, const std::string& where, const FlightCondition& flight,
-                const std::map<std::string, BoundaryKind>& boundary) {
+                const Components& components) {
   const std::size_t at = std::min(text.find('@'), text.size());
   const auto found = derivative_of_name(text.substr(0, at));
   if (!found)
@@ -21,7 +21,8 @@ Goal parse_goal(std::string_view text, const std::string& where, const FlightCon
                      "@patch+patch for some of the walls");
   const auto [coefficient, variable] = *found;
   const Functional load{coefficient, {}, rates_in(variable)};
-  Goal goal{parse_functional(load.name() + std::string(text.substr(at)), where, flight, boundary), variable};
+  Goal goal{parse_functional(load.name() + std::string(text.substr(at)), where, flight, components),
+            variable};
   const auto known = variables_of(goal.functional, flight);
   if (std::ranges::find(known, variable) == known.end()) {
     std::vector<std::string_view> names;

@@ -1,7 +1,6 @@
 // The derivatives that a mesh is adapted to.
 #pragma once
 
-#include <map>
 #include <string>
 #include <string_view>
 
@@ -18,10 +17,10 @@ struct Goal {
   std::string name() const { return derivative_name(functional, alphadot::name(variable)); }
 };
 
-/// From its name. Throws InputError that names `where` when there is no such derivative or wall, or when
-/// symmetry makes it zero.
+/// From its name, in which sets of walls may stand for their walls. Throws InputError that names `where` when
+/// there is no such derivative or component, or when symmetry makes it zero.
 Goal parse_goal(std::string_view name, const std::string& where, const FlightCondition& flight,
-                const std::map<std::string, BoundaryKind>& boundary);
+                const Components& components);
 
 /// Its equations, with the solutions that adjoints and responses must have. Refers to these.
 DerivativeChain chain_of(const Goal& goal, const FlowCase& flow, const Adjoints& adjoints,

@@ -19,9 +19,9 @@ std::vector<Conserved<Real>> dissipation(const Discretization& discretization, c
     if (discretization.space().order > 1) {
       const auto l = extrapolated(wl, reconstruction[left], center - domain.center[left]);
       const auto r = extrapolated(wr, reconstruction[right], center - domain.center[right]);
-      const Real share = std::min(usable_share(l, wl), usable_share(r, wr));
-      wl += share * (l - wl);
-      wr += share * (r - wr);
+      const Real scaling = std::min(positivity_scaling(l, wl), positivity_scaling(r, wr));
+      wl += scaling * (l - wl);
+      wr += scaling * (r - wr);
     }
     const Real speed = conditions.face_speed(static_cast<Index>(face), center, normal);
     const auto mean =

@@ -69,7 +69,7 @@ class ToleranceTest(unittest.TestCase):
         self.assertEqual(self.runs(), before)
         self.assertEqual(self.found()["streams"][0]["derivatives"], values)
         # A run that was killed is done again, and that one alone.
-        (killed,) = (self.folder / "out").glob("family_1/run_1.18/cost.json")
+        (killed,) = (self.folder / "out").glob("family_1/run_1.18/done.json")
         killed.unlink()
         self.assertEqual(run(self.folder, *OPTIONS, "--tolerance", "40%,Cm_alphadot=50%CN_alphadot").returncode, 0)
         changed = [file for file, when in self.runs().items() if before.get(file) != when]
