@@ -41,12 +41,12 @@ def parse() -> argparse.Namespace:
         prog="alphadot derivatives", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )  # fmt: skip
     parser.add_argument("case", type=Path, help="a description that alphadot mesh knows, or a case file with [mesh] from = description")
-    parser.add_argument("--tolerance", nargs="?", metavar="T", help="half width of the intervals: 1%%, 2%%CN_alphadot or 0.4; NAME=T for a goal of its own")
+    parser.add_argument("--tolerance", nargs="?", metavar="T", help="half width of intervals: 1%%, 2%%CN_alphadot, 0.4; NAME=T of a goal")
     parser.add_argument("--goals", default=GOALS, metavar="NAMES", help=f"derivatives that the meshes are adapted to (default: {GOALS})")
-    parser.add_argument("--cells", type=number(12e3, 1e8), default=250_000, metavar="N", help="of the finest mesh at most (default: 250,000)")
-    parser.add_argument("--minutes", type=number(0.0, 1e6), metavar="M", help="of the clock at most: no family is begun that would take longer")
-    parser.add_argument("--mach", nargs="+", type=number(0.01, 30.0), metavar="M", help="one family of meshes for several Mach numbers: of all size fields the smallest")
-    parser.add_argument("--ranks", type=int, default=1, metavar="N", help="run the solver on so many ranks of mpirun; meshes are made on one core")
+    parser.add_argument("--cells", type=number(12e3, 1e8), default=250_000, metavar="N", help="of the finest mesh (default: 250,000)")
+    parser.add_argument("--minutes", type=number(0.0, 1e6), metavar="M", help="of the clock: no family is begun that would take longer")
+    parser.add_argument("--mach", nargs="+", type=number(0.01, 30.0), metavar="M", help="Mach numbers that one family of meshes is for")
+    parser.add_argument("--ranks", type=int, default=1, metavar="N", help="of mpirun, for the solver; meshes are made on one core")
     parser.add_argument("--plain", action="store_true", help="the same with meshes that are not adapted")
     parser.add_argument("--out", type=Path, metavar="FOLDER", help="default: runs/<name of the case>-adapted")
     parser.add_argument("--overwrite", action="store_true", help="replace what was made in the folder for something else")

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Holds the intervals of `alphadot derivatives --tolerance` against exact derivatives of sharp cones: how often they hold, how wide they are.
+"""Holds the intervals of `alphadot derivatives --tolerance` against exact derivatives of cones: how often they hold, how wide they are.
 
   adaptation_calibration.py --out FOLDER [--cells 40000] [--set fit|validation]
 
@@ -69,7 +69,8 @@ def main() -> int:
                 for name in NAMES:
                     found = family["streams"][0]["derivatives"][name]
                     error, half_width = found["value"] - exact[name], found["uncertainty"]
-                    rows.append((used_for, angle, mach, number, family["cells"], name, exact[name], found["value"], half_width, error / half_width))
+                    numbers = (number, family["cells"], name, exact[name], found["value"], half_width, error / half_width)
+                    rows.append((used_for, angle, mach, *numbers))
             own = [row for row in rows if row[:3] == (used_for, angle, mach)]
             text = "  ".join(f"{row[5]} {row[7]:.4g} ± {row[8]:.2g} ({row[9]:+.2f})" for row in own[-len(NAMES) :])
             print(f"{used_for}: cone {angle:g} deg, Mach {mach:g}: {text}", flush=True)
@@ -79,7 +80,8 @@ def main() -> int:
         print(f"{used_for}: {inside} of {len(shares)} inside; median of half width over error {1.0 / statistics.median(shares):.1f}")
     with open(arguments.out / "calibration.csv", "w", newline="") as file:
         writer = csv.writer(file, lineterminator="\n")
-        writer.writerow(("set", "half_angle", "mach", "family", "cells", "derivative", "exact", "value", "uncertainty", "error over uncertainty"))
+        names = ("set", "half_angle", "mach", "family", "cells", "derivative", "exact", "value", "uncertainty", "error over uncertainty")
+        writer.writerow(names)
         writer.writerows(rows)
     return 0
 

@@ -58,7 +58,8 @@ def main() -> int:
     found = {"plain": adaptation(arguments, "plain", "--plain"), "adapted": adaptation(arguments, "adapted")}
     rows = [("meshes", "finest", "s of processor", *(word for name in arguments.truth for word in (name, "", "scatter", "finest mesh")))]
     with plt.rc_context(STYLE):
-        figure, panels = plt.subplots(1, len(arguments.truth), figsize=(4.2 * len(arguments.truth), 3.6), layout="constrained", squeeze=False)
+        width = len(arguments.truth)
+        figure, panels = plt.subplots(1, width, figsize=(4.2 * width, 3.6), layout="constrained", squeeze=False)
         for (kind, one), color in zip(found.items(), COLORS):
             for family in one["families"]:
                 members, derivatives = (family["streams"][0][key] for key in ("members", "derivatives"))
@@ -66,10 +67,12 @@ def main() -> int:
                 row = [kind, f"{finest:,}", f"{family['cpu_s']:.0f}"]
                 for axes, (name, truth) in zip(panels[0], arguments.truth.items()):
                     entry = derivatives[name]
-                    row += [f"{entry['value']:.5g}", f"± {entry['uncertainty']:.2g}", f"{entry['scatter']:.2g}", f"{entry['levels'][0]:.5g}"]
+                    value, *others = entry["value"], entry["uncertainty"], entry["scatter"], entry["levels"][0]
+                    row += [f"{value:.5g}", f"± {others[0]:.2g}", f"{others[1]:.2g}", f"{others[2]:.5g}"]
                     label = kind if family is one["families"][0] else None
                     axes.loglog(family["cpu_s"], max(abs(entry["value"] - truth), 1e-9), "s", color=color, label=label)
-                    axes.loglog(family["cpu_s"], abs(entry["levels"][0] - truth), "o", mfc="none", color=color, label=label and f"{kind}, finest mesh alone")
+                    alone = label and f"{kind}, finest mesh alone"
+                    axes.loglog(family["cpu_s"], abs(entry["levels"][0] - truth), "o", mfc="none", color=color, label=alone)
                 rows.append(tuple(row))
         for axes, (name, truth) in zip(panels[0], arguments.truth.items()):
             axes.set(title=f"{name}, {truth:g} at Mach {arguments.mach:g}", xlabel="s of processor, meshing included", ylabel="error")

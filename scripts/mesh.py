@@ -98,7 +98,7 @@ def parse() -> argparse.Namespace:
     sizes.add_argument("--cells", type=cell_count, metavar="N", help="tetrahedra of the mesh instead of a level's")
     parser.add_argument(
         "--sizes", nargs="+", type=Path, metavar="FILE",
-        help="adapted to derivatives: indicator.vtkhdf of alphadot adjoint --indicator on an earlier mesh; of several, such as for a range of Mach numbers, the smallest sizes",
+        help="adapted to derivatives: indicator.vtkhdf of alphadot adjoint --indicator on earlier meshes; of several the smallest sizes",
     )  # fmt: skip
     parser.add_argument(
         "--factors", nargs="+", type=factor, metavar="F",

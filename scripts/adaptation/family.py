@@ -2,11 +2,11 @@
 
 Errors of a second-order scheme fall with the square of the spacing h, and so does what is left to chance from mesh to mesh. A line
 v = a + b h^2 through all meshes, least squares of residuals over h^2, gives at once the value a without spacing, its standard error, and
-the scatter s h^2. Some meshes of the family are nearly as fine as each other, `JITTER` apart: what they differ by is scatter. Between levels
-the line may be wrong as well: a singular edge lets errors fall more slowly. So e = hypot(standard error, `TRUST` (a - finest value)), and
-as the entries of one run are about equally wrong by their scales, the interval is U = `COVERAGE` hypot(e, s E) with E the median of e by s.
-The extrapolated value is given only where the scatter of the coarsest level is below its difference to the finest one; elsewhere it is the
-finest mesh's own.
+the scatter s h^2. Some meshes of the family are nearly as fine as each other, `JITTER` apart: what they differ by is scatter. From level
+to level the line may be wrong as well, as a singular edge lets errors fall more slowly. So e = hypot(standard error, `TRUST` (a - finest
+value)), and as the entries of one run are about equally wrong by their scales, the interval is U = `COVERAGE` hypot(e, s E) with E the
+median of e by s. The extrapolated value is given only where the scatter of the coarsest level is below its difference to the finest one;
+elsewhere it is the finest mesh's own.
 """
 
 from __future__ import annotations

@@ -80,7 +80,8 @@ class Adaptation:
     def __init__(
         self, steps: Steps, folder: Path, streams: Sequence[Stream], tolerances: Mapping[str, Tolerance], budget: Budget, adapts: bool
     ) -> None:
-        self.steps, self.folder, self.streams, self.tolerances, self.budget, self.adapts = steps, folder, streams, tolerances, budget, adapts
+        self.steps, self.folder, self.streams = steps, folder, streams
+        self.tolerances, self.budget, self.adapts = tolerances, budget, adapts
         self.meshing, self.solving = Cost(), Cost()
         self._start = time.monotonic()
         self._spent_before = 0.0  # seconds of steps that were found
@@ -104,9 +105,11 @@ class Adaptation:
             growth = min(max((misses[worst] / AIM) ** (1.0 / ORDER), LEAST), MOST)
             cells = min(int(latest.cells * growth), self.budget.middle)
             if cells < 1.05 * latest.cells:
-                return self._end("out_of_budget", f"{left} with {self.budget.cells:,} cells on the finest mesh: allow more by --cells", families)
+                left += f" with {self.budget.cells:,} cells on the finest mesh: allow more by --cells"
+                return self._end("out_of_budget", left, families)
             if self.budget.minutes is not None and self._seconds() + self._forecast(cells) > 60.0 * self.budget.minutes:
-                return self._end("out_of_budget", f"{left} and the next family of meshes would take {self._forecast(cells) / 60.0:.1f} more minutes", families)
+                left += f", and the next family of meshes would take {self._forecast(cells) / 60.0:.1f} more minutes"
+                return self._end("out_of_budget", left, families)
             tell(f"{left}: {growth:.2g} times as many cells")
             if self.adapts:
                 indicators = self._indicators_on(latest.middle, self.folder / f"family_{latest.number}")
@@ -122,7 +125,8 @@ class Adaptation:
         """Where the errors of the goals are made, in every stream."""
         files = []
         for stream in self.streams:
-            run = self._solve(mesh, folder / _folder_of("indicator", stream), stream, "adjoint", "--indicator", ",".join(self.tolerances))
+            options = ("adjoint", "--indicator", ",".join(self.tolerances))
+            run = self._solve(mesh, folder / _folder_of("indicator", stream), stream, *options)
             files.append(run.folder / "indicator.vtkhdf")
         return files
 

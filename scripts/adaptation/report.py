@@ -42,12 +42,13 @@ def table(outcome: Outcome, adaptation: Adaptation) -> str:
     for stream in adaptation.streams:
         members = sorted(family.members[stream.name], key=lambda member: member.factor)
         lines += [stream.name] if stream.name else []
-        rows = [("name", "value", "", "tolerance", "order", "scatter", *(f"{m.cells:,}" for m in members if m.factor in (0.76, 1.0)), "coarsest")]
+        rows = [("name", "value", "", "tolerance", "order", "scatter", *(f"{member.cells:,}" for member in members[:2]), "coarsest")]
         for name, interval, asked in rows_of(family, stream.name, adaptation):
             order = "" if interval.order is None else f"{interval.order:.1f}"
             rows.append((
                 name, f"{interval.value:.6g}", f"± {interval.uncertainty:.2g}", "" if asked is None else f"{asked:.2g}",
-                order if interval.is_extrapolated else "not extrapolated", f"{interval.scatter:.2g}", *(f"{value:.6g}" for value in interval.levels),
+                order if interval.is_extrapolated else "not extrapolated", f"{interval.scatter:.2g}",
+                *(f"{value:.6g}" for value in interval.levels),
             ))  # fmt: skip
         lines.append(aligned(rows))
     total = outcome.meshing + outcome.solving
@@ -76,7 +77,9 @@ def write_report(outcome: Outcome, adaptation: Adaptation) -> None:
             {
                 "name": stream.name,
                 "settings": list(stream.settings),
-                "derivatives": {name: asdict(interval) | {"tolerance": asked} for name, interval, asked in rows_of(family, stream.name, adaptation)},
+                "derivatives": {
+                    name: asdict(interval) | {"tolerance": asked} for name, interval, asked in rows_of(family, stream.name, adaptation)
+                },
             }
             for stream in adaptation.streams
         ],
@@ -104,7 +107,8 @@ def write_report(outcome: Outcome, adaptation: Adaptation) -> None:
         for name, interval, asked in rows_of(family, stream.name, adaptation):
             order = "" if interval.order is None else interval.order
             extrapolated = "yes" if interval.is_extrapolated else "no"
-            writer.writerow((stream.name, name, interval.value, interval.uncertainty, asked or "", extrapolated, order, interval.scatter, *interval.levels))
+            numbers = (interval.value, interval.uncertainty, asked or "", extrapolated, order, interval.scatter, *interval.levels)
+            writer.writerow((stream.name, name, *numbers))
     (folder / "adaptation.csv").write_text(text.getvalue())
     with plt.rc_context(STYLE):
         _draw_convergence(outcome, adaptation)
@@ -114,7 +118,8 @@ def write_report(outcome: Outcome, adaptation: Adaptation) -> None:
 def _draw_convergence(outcome: Outcome, adaptation: Adaptation) -> None:
     """Every goal against the square of the spacing, of all families, with the interval at none."""
     goals, streams = list(adaptation.tolerances), adaptation.streams
-    figure, grid = plt.subplots(len(streams), len(goals), figsize=(3.6 * len(goals), 3.2 * len(streams)), layout="constrained", squeeze=False)
+    shape = (len(streams), len(goals))
+    figure, grid = plt.subplots(*shape, figsize=(3.6 * shape[1], 3.2 * shape[0]), layout="constrained", squeeze=False)
     for row, stream in zip(grid, streams):
         for axes, goal in zip(row, goals):
             for family, color in zip(outcome.families, COLORS * len(outcome.families)):

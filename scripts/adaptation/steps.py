@@ -69,7 +69,8 @@ class Solved:
     def solver(self) -> dict[str, float]:
         """Uncertainties; one that is not known is as large as the value."""
         entries = self.result["derivatives"].items()
-        return {name: abs(entry["value"]) if entry["uncertainty"] is None else entry["uncertainty"] for name, entry in entries if entry["value"] is not None}
+        known = lambda entry: abs(entry["value"]) if entry["uncertainty"] is None else entry["uncertainty"]
+        return {name: known(entry) for name, entry in entries if entry["value"] is not None}
 
     @property
     def is_converged(self) -> bool:

@@ -34,7 +34,7 @@ def read_tolerance(text: str) -> Tolerance:
     match = re.fullmatch(rf"({NUMBER})(%(\w*))?", text.strip())
     size = float(match[1]) if match and match[1].count(".") <= 1 and match[1] != "." else math.nan
     if not size > 0.0:
-        raise ToleranceError(f"'{text}' is no tolerance: write 1% of the derivative itself, 2%CN_alphadot of another, or a number such as 0.4")
+        raise ToleranceError(f"'{text}' is no tolerance: write 1% of the derivative itself, 2%CN_alphadot of another, or a number")
     return Tolerance(size / 100.0, match[3]) if match[2] else Tolerance(size)
 
 

@@ -1,7 +1,7 @@
 """The size of cells wanted at a point, from where on earlier meshes the errors of derivatives were made.
 
-`alphadot adjoint --indicator` writes eta of each cell into indicator.vtkhdf: what the dissipation on its faces may do to the derivatives. It
-falls as volume times spacing squared, so that the density e = eta / (V h^2) belongs to the flow and not to the mesh. Cells of size s make an
+`alphadot adjoint --indicator` writes eta of each cell into indicator.vtkhdf: what the dissipation on its faces may do to derivatives. It
+falls as volume times spacing squared, so that the density e = eta / (V h^2) belongs to the flow, not to the mesh. Cells of size s make an
 error of e s^2 a volume, and 1 / s^3 of them fill it: of all meshes with as many cells, s ~ e^(-1/5) has the least sum of errors. Sizes
 are nowhere more than `COARSEST` times those of a mesh of as many cells that is made from the description alone and has no caps away from
 the body, because facets of curved walls are errors that no indicator sees.

@@ -11,7 +11,6 @@ from typing import Protocol
 import gmsh
 import numpy as np
 
-from meshing.adapted_sizes import AdaptedSizes, read_errors
 from meshing.background import set_background
 from meshing.domain import Domain
 from meshing.generator import MESH_ADAPT, generate
@@ -69,7 +68,9 @@ class Made:
     report: list[str] = field(default_factory=list)
 
 
-def make_mesh(subject: Missile | Shape, model: str | None, cells: int, indicators: Sequence[Path] = (), factor: float | None = None) -> Made:
+def make_mesh(
+    subject: Missile | Shape, model: str | None, cells: int, indicators: Sequence[Path] = (), factor: float | None = None
+) -> Made:
     """The mesh of about `cells` tetrahedra, as a half or a full model; None: half where the body is symmetric about y = 0.
 
     `indicators`: files that tell where earlier meshes made errors. `factor`: of all sizes, as one of a family of meshes of one size field;
@@ -83,6 +84,8 @@ def make_mesh(subject: Missile | Shape, model: str | None, cells: int, indicator
     share = 0.5 if model == "half" else 1.0
     sizes = fluid.sizes(LEVELS["coarse"] * 2.0 * sector.share)
     if indicators:
+        from meshing.adapted_sizes import AdaptedSizes, read_errors  # what it needs takes a while to come
+
         errors = [read_errors(path, unit, fluid.origin, sector) for path in indicators]
         sizes = AdaptedSizes(errors, sizes, sector, cells * sector.share / share)
     h = (factor or 1.0) * (sizes.cells(sector) * share / sector.share / cells) ** (1.0 / 3.0)

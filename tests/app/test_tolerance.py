@@ -25,7 +25,8 @@ diameter = 1
 shape = "cylinder"
 length = 2
 """
-OPTIONS = ("derivatives", "missile.toml", "--goals", "Cm_alpha,Cm_alphadot", "--cells", "12000", "--set", "freestream.mach=2", "--out", "out")
+GOALS = ("--goals", "Cm_alpha,Cm_alphadot", "--cells", "12000")
+OPTIONS = ("derivatives", "missile.toml", *GOALS, "--set", "freestream.mach=2", "--out", "out")
 
 
 def run(folder: Path, *arguments: object) -> subprocess.CompletedProcess:
@@ -53,7 +54,7 @@ class ToleranceTest(unittest.TestCase):
         entries = found["streams"][0]["derivatives"]
         self.assertLessEqual(entries["Cm_alpha"]["uncertainty"], 0.4 * abs(entries["Cm_alpha"]["value"]))
         self.assertEqual(len(found["families"][-1]["streams"][0]["members"]), 5)
-        mesh = subprocess.run([PROGRAM, "mesh", "missile.toml", "-o", "fine", "--cells", "30000", "--no-picture"], cwd=self.folder, capture_output=True, text=True)
+        mesh = run(self.folder, "mesh", "missile.toml", "-o", "fine", "--cells", "30000", "--no-picture")
         self.assertEqual(mesh.returncode, 0, mesh.stderr)
         fine = run(self.folder, "derivatives", "fine/case.toml", "--set", "freestream.mach=2", "--out", "fine/run")
         self.assertEqual(fine.returncode, 0, fine.stderr)

@@ -27,11 +27,11 @@ from meshing.tetrahedra import MeshError
 NAMES = [f"{load}_{by}" for load in ("CN", "Cm") for by in ("alpha", "q", "alphadot")]
 
 
-def family(truth: dict[str, float], slope: dict[str, float], power: float, noise: float, random: np.random.Generator, cells: float = 1e5) -> list[Member]:
+def family(truth: dict[str, float], slope: dict[str, float], power: float, noise: float, random: np.random.Generator) -> list[Member]:
     """Members whose values are truth + slope h^power, and noise h^2 at random by the size of the truth."""
     members = []
     for factor in family_factors():
-        count = round(cells / factor**3)
+        count = round(1e5 / factor**3)
         h = (1e6 / count) ** (1.0 / 3.0)
         values = {name: truth[name] + slope[name] * h**power + noise * abs(truth[name]) * h * h * random.normal() for name in truth}
         members.append(Member(factor, count, values, dict.fromkeys(truth, 0.0)))
@@ -172,7 +172,8 @@ class SizesTest(unittest.TestCase):
         errors = [read_errors(file, 1.0, np.zeros(3), ALL) for file in (self.file, other)]
         cells = 1000.0 * PER_VOLUME * volumes.sum()
         points = np.random.default_rng(7).uniform(0.0, 2.0, (100, 3))
-        both, each = AdaptedSizes(errors, Plain(volumes.sum()), ALL, cells), [AdaptedSizes([one], Plain(volumes.sum()), ALL, cells) for one in errors]
+        both = AdaptedSizes(errors, Plain(volumes.sum()), ALL, cells)
+        each = [AdaptedSizes([one], Plain(volumes.sum()), ALL, cells) for one in errors]
         np.testing.assert_allclose(both(points), np.minimum(each[0](points), each[1](points)), rtol=1e-12)
 
     def test_says_what_is_wrong(self) -> None:
