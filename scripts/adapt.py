@@ -43,7 +43,7 @@ def parse() -> argparse.Namespace:
     parser.add_argument("case", type=Path, help="a description that alphadot mesh knows, or a case file with [mesh] from = description")
     parser.add_argument("--tolerance", nargs="?", metavar="T", help="half width of intervals: 1%%, 2%%CN_alphadot, 0.4; NAME=T of a goal")
     parser.add_argument("--goals", default=GOALS, metavar="NAMES", help=f"derivatives that the meshes are adapted to (default: {GOALS})")
-    parser.add_argument("--cells", type=number(12e3, 1e8), default=250_000, metavar="N", help="of the finest mesh (default: 250,000)")
+    parser.add_argument("--cells", type=number(15e3, 1e8), default=250_000, metavar="N", help="about so many on the finest mesh (default: 250,000)")
     parser.add_argument("--minutes", type=number(0.0, 1e6), metavar="M", help="of the clock: no family is begun that would take longer")
     parser.add_argument("--mach", nargs="+", type=number(0.01, 30.0), metavar="M", help="Mach numbers that one family of meshes is for")
     parser.add_argument("--ranks", type=int, default=1, metavar="N", help="of mpirun, for the solver; meshes are made on one core")

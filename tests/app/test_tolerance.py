@@ -25,12 +25,15 @@ diameter = 1
 shape = "cylinder"
 length = 2
 """
-GOALS = ("--goals", "Cm_alpha,Cm_alphadot", "--cells", "12000")
+GOALS = ("--goals", "Cm_alpha,Cm_alphadot", "--cells", "15000")
 OPTIONS = ("derivatives", "missile.toml", *GOALS, "--set", "freestream.mach=2", "--out", "out")
 
 
 def run(folder: Path, *arguments: object) -> subprocess.CompletedProcess:
     return subprocess.run([PROGRAM, *map(str, arguments)], cwd=folder, capture_output=True, text=True, timeout=250)
+
+
+TOLERANCE = "20%CN_alpha,Cm_alphadot=50%CN_alphadot"
 
 
 class ToleranceTest(unittest.TestCase):
@@ -40,7 +43,7 @@ class ToleranceTest(unittest.TestCase):
         cls.addClassCleanup(temporary.cleanup)
         cls.folder = Path(temporary.name)
         (cls.folder / "missile.toml").write_text(MISSILE)
-        cls.first = run(cls.folder, *OPTIONS, "--tolerance", "40%,Cm_alphadot=50%CN_alphadot")
+        cls.first = run(cls.folder, *OPTIONS, "--tolerance", TOLERANCE)
 
     def found(self) -> dict:
         return json.loads((self.folder / "out" / "adaptation.json").read_text())
@@ -52,7 +55,7 @@ class ToleranceTest(unittest.TestCase):
         self.assertEqual(self.first.returncode, 0, self.first.stderr)
         found = self.found()
         entries = found["streams"][0]["derivatives"]
-        self.assertLessEqual(entries["Cm_alpha"]["uncertainty"], 0.4 * abs(entries["Cm_alpha"]["value"]))
+        self.assertLessEqual(entries["Cm_alpha"]["uncertainty"], 0.2 * entries["CN_alpha"]["value"])
         self.assertEqual(len(found["families"][-1]["streams"][0]["members"]), 5)
         mesh = run(self.folder, "mesh", "missile.toml", "-o", "fine", "--cells", "30000", "--no-picture")
         self.assertEqual(mesh.returncode, 0, mesh.stderr)
@@ -63,19 +66,20 @@ class ToleranceTest(unittest.TestCase):
                 self.assertLessEqual(abs(entry["value"] - entries[name]["value"]), entries[name]["uncertainty"], name)
 
     def test_finds_again_what_is_there(self) -> None:
-        before, values = self.runs(), self.found()["streams"][0]["derivatives"]
+        before, values = self.runs(), self.found()["families"]
         start = time.monotonic()
-        again = run(self.folder, *OPTIONS, "--tolerance", "40%,Cm_alphadot=50%CN_alphadot")
+        again = run(self.folder, *OPTIONS, "--tolerance", TOLERANCE)
         self.assertEqual(again.returncode, 0, again.stderr)
         self.assertEqual(self.runs(), before)
-        self.assertEqual(self.found()["streams"][0]["derivatives"], values)
+        self.assertEqual(self.found()["families"], values)
         # A run that was killed is done again, and that one alone.
         (killed,) = (self.folder / "out").glob("family_1/run_1.18/done.json")
         killed.unlink()
-        self.assertEqual(run(self.folder, *OPTIONS, "--tolerance", "40%,Cm_alphadot=50%CN_alphadot").returncode, 0)
+        self.assertEqual(run(self.folder, *OPTIONS, "--tolerance", TOLERANCE).returncode, 0)
         changed = [file for file, when in self.runs().items() if before.get(file) != when]
         self.assertEqual(changed, [str(killed.with_name("result.json"))])
-        self.assertEqual(self.found()["streams"][0]["derivatives"]["Cm_alpha"]["value"], values["Cm_alpha"]["value"])
+        again, first = (families[-1]["streams"][0]["derivatives"]["Cm_alpha"]["value"] for families in (self.found()["families"], values))
+        self.assertEqual(again, first)
         self.assertLess(time.monotonic() - start, 60.0)
 
     def test_a_budget_that_is_too_small_is_said(self) -> None:
@@ -89,11 +93,11 @@ class ToleranceTest(unittest.TestCase):
         (self.folder / "own.toml").write_text('[mesh]\nfile = "own.msh"\n')
         for options, code, part in (
             (("missile.toml", "--tolerance", "much"), 1, "'much' is no tolerance"),
-            (("missile.toml", "--tolerance", "Cm_q=1%"), 1, "none of the goals"),
+            (("missile.toml", "--tolerance", "1%,Cn_r=1%"), 1, "none of the goals"),
             (("missing.toml", "--tolerance", "1%"), 1, "no such file"),
             (("own.toml", "--tolerance", "1%"), 1, "set [mesh] from"),
             ((*OPTIONS[1:], "--goals", "Cm_r", "--tolerance", "1%"), 1, "holds an adaptation of something else"),
-            (("missile.toml", "--out", "wrong", "--goals", "Cm_beta", "--cells", "12000", "--tolerance", "1%"), 1, "Cm_beta"),
+            (("missile.toml", "--out", "wrong", "--goals", "Cm_beta", "--cells", "15000", "--tolerance", "1%"), 1, "Cm_beta"),
             (("missile.toml", "--tolerance", "1%", "--cells", "few"), 2, "'few' is no number"),
         ):
             done = run(self.folder, "derivatives", *options)
