@@ -4,8 +4,9 @@
   adaptation_calibration.py --out FOLDER [--cells 40000] [--set fit|validation]
 
 Each cone is described, meshed and adapted once, with the budget of cells alone to end it; every family of meshes on the way gives an
-interval for CN and Cm by alpha, q and alphadot. The constants of scripts/adaptation/family.py were chosen on the first set of cones;
-the second has other angles and Mach numbers. Prints a row a cone and the share of entries inside, and writes calibration.csv.
+interval for CN and Cm by alpha, q and alphadot. The constants of scripts/adaptation/family.py were chosen on made-up families, without
+any of these; a change of them is to be made on the first set, and the second, of other angles and Mach numbers, to tell what it is worth.
+Prints a row a cone and the share of entries inside, and writes calibration.csv.
 """
 
 from __future__ import annotations
