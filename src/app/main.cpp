@@ -164,8 +164,9 @@ int main(int argc, char** argv) {
       "adjoint", "What loads are sensitive to: one linear solve a load, for all flight variables at once");
   add_case_arguments(adjoint, arguments);
   adjoint
-      .add_option("--of", loads,
-                  "Loads, e.g. Cm,CN,Cm_alphadot or CN@fin_1+fin_2 of some walls or sets (default: all coefficients)")
+      .add_option(
+          "--of", loads,
+          "Loads, e.g. Cm,CN,Cm_alphadot or CN@fin_1+fin_2 of some walls or sets (default: all coefficients)")
       ->type_name("LOADS")
       ->delimiter(',');
   std::vector<std::string> goals;

@@ -25,8 +25,8 @@ std::vector<Real> remaining_error(std::span<const Real> norms, std::span<const s
 inline constexpr Real moment_arm = 0.25;
 
 /// Scales of the components of loads, the same for all: the size of `total`, for moments at least what its
-/// force does on moment_arm, for forces at least what makes its moment on the size of the body: where symmetry
-/// leaves a moment alone, as in roll, forces are no measure of anything.
+/// force does on moment_arm, for forces at least what makes its moment on the size of the body: where
+/// symmetry leaves a moment alone, as in roll, forces are no measure of anything.
 std::vector<Real> scales_of(const Load& total, Real body_size, std::size_t loads);
 
 /// The largest share of its scale that an error is.
