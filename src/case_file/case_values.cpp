@@ -174,22 +174,26 @@ MaybeProblem ControlsValue::read(const toml::node& node, std::vector<ControlSett
   if (!array || array->size() > most) return wrong_value(type(), node);
   std::vector<ControlSettings> controls(array->size());
   for (std::size_t i = 0; i < controls.size(); ++i) {
-    auto& [name, patches, point, axis] = controls[i];
-    const auto read_name = [&](const toml::node& n) { return TextValue{.most = 60}.read(n, name); };
-    const auto read_patches = [&](const toml::node& n) { return TextsValue{.most = 1000}.read(n, patches); };
+    ControlSettings& control = controls[i];
+    const auto read_name = [&](const toml::node& n) { return TextValue{.most = 60}.read(n, control.name); };
+    const auto read_patches = [&](const toml::node& n) {
+      return TextsValue{.most = 1000}.read(n, control.patches);
+    };
     const auto read_hinge = [&](const toml::node& n) {
-      return read_table(n, hinge_type,
-                        std::pair{std::string_view("point"),
-                                  [&](const toml::node& p) { return point_value.read(p, point); }},
-                        std::pair{std::string_view("axis"),
-                                  [&](const toml::node& a) { return point_value.read(a, axis); }});
+      return read_table(
+          n, hinge_type,
+          std::pair{std::string_view("point"),
+                    [&](const toml::node& p) { return point_value.read(p, control.hinge_point); }},
+          std::pair{std::string_view("axis"),
+                    [&](const toml::node& a) { return point_value.read(a, control.hinge_axis); }});
     };
     auto problem = read_table((*array)[i], control_type, std::pair{std::string_view("name"), read_name},
                               std::pair{std::string_view("patches"), read_patches},
                               std::pair{std::string_view("hinge"), read_hinge});
     if (!problem) continue;
-    problem->what = fmt::format("{}: {}", name.empty() ? fmt::format("number {}", i + 1) : toml_string(name),
-                                problem->what);
+    problem->what = fmt::format(
+        "{}: {}", control.name.empty() ? fmt::format("number {}", i + 1) : toml_string(control.name),
+        problem->what);
     return problem;
   }
   value = std::move(controls);
