@@ -117,7 +117,8 @@ bool Checkpoints::found_stop_file() {
 
 bool Checkpoints::wall_limit_is_near() const {
   const Real limit = 60 * setup_.settings.checkpoint.wall_limit_minutes;
-  const Real needed = 2 * longest_step_ + 2 * last_cost_ + 0.02 * limit;
+  constexpr Real files_at_the_end = 0.2;  // seconds
+  const Real needed = 2 * longest_step_ + 2 * last_cost_ + files_at_the_end + 0.02 * limit;
   return limit > 0 && since_start_.wall() + needed > limit;
 }
 
