@@ -28,9 +28,11 @@ std::string aft_name(const std::string& patch) {
   return patch + "_aft";
 }
 
-Real part_aft_faces(Subdomain& domain, Index patch) {
-  const auto last = static_cast<Index>(domain.patch_names.size());
-  domain.patch_names.push_back(aft_name(domain.patch_names[static_cast<std::size_t>(patch)]));
+Real part_aft_faces(Subdomain& domain, const std::string& name) {
+  auto& names = domain.patch_names;
+  const auto patch = static_cast<Index>(std::ranges::find(names, name) - names.begin()),
+             last = static_cast<Index>(names.size());
+  names.push_back(aft_name(name));
   Real area = 0;
   for (std::size_t i = 0; i < domain.boundary_faces.size(); ++i) {
     if (domain.boundary_faces[i].patch != patch || !looks_aft(domain.boundary_normal[i])) continue;

@@ -15,8 +15,8 @@ bool looks_aft(const Vec3& area);
 /// "fin_aft" of "fin".
 std::string aft_name(const std::string& patch);
 
-/// Takes the faces of a patch that look aft out of it and makes them the last patch, aft_name(). Returns
-/// their area on this rank. To be called on every rank alike.
-Real part_aft_faces(Subdomain& domain, Index patch);
+/// Takes the faces of a patch, one of the domain's, that look aft out of it and makes them the last patch,
+/// aft_name(). Returns their area on this rank. To be called on every rank alike.
+Real part_aft_faces(Subdomain& domain, const std::string& name);
 
 }  // namespace alphadot

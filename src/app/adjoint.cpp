@@ -59,12 +59,20 @@ bool write_indicator(CaseRun& run, const std::vector<Goal>& goals, const Adjoint
                      const SolveObserver& observer) {
   FlowCase& flow = run.flow();
   Responses responses;
-  if (!solve_responses(flow, responses, observer)) return false;
+  std::vector<std::string> shortfalls;
+  if (!solve_responses(flow, responses, shortfalls, observer)) return false;
   AdjointSolver solver(flow.iteration(), flow.conditions(), flow.settings().derivatives, observer.go_on);
   std::vector<DerivativeChain> chains;
   for (const auto& goal : goals) chains.push_back(chain_of(goal, flow, adjoints, responses));
   const auto found = indicators(flow.iteration(), flow.conditions(), solver, chains);
   if (found.empty()) return false;
+  for (const auto& one : found)
+    if (auto shortfall =
+            shortfall_of_solve("the adjoint of " + one.name + " to the steady flow", one.relative_residual,
+                               one.iterations, flow.settings().derivatives.orders);
+        !shortfall.empty())
+      shortfalls.push_back(std::move(shortfall));
+  for (auto& shortfall : shortfalls) run.record().fall_short(std::move(shortfall));
   const auto all = joined(found, run.communicator());
   std::vector<VtkField> fields{{"indicator", all}};
   for (const auto& one : found) fields.emplace_back("indicator_" + one.name, one.of_cells);

@@ -50,6 +50,7 @@ constexpr Output outputs[] = {{result_name, ""},
                               {"mesh_3", "derivatives"},
                               {"adjoint.csv", "adjoint"},
                               {"adjoint.vtkhdf", "adjoint"},
+                              {"indicator.vtkhdf", "adjoint"},
                               {"frequency.csv", "frequency"},
                               {"surface_sensitivity.csv", "adjoint"},
                               {"surface_sensitivity.vtkhdf", "adjoint"}};

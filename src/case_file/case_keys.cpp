@@ -170,8 +170,7 @@ std::vector<CaseKey> make_keys() {
           "such a patch are those of both sides together; in a prepared mesh they are so already")
       .key("aft_jets", &MeshSettings::aft_jets, TextsValue{.most = 1000},
            "walls, as of fins with blunt trailing edges, whose faces within 45 degrees of looking aft become "
-           "a "
-           "jet and so leave the forces: a patch of its own, NAME_aft");
+           "a jet and so leave the forces: a patch of its own, NAME_aft");
 
   Table(keys, "reference", &Case::reference)
       .key("length", &ReferenceSettings::length, length, "diameter or chord, for moments and rates")

@@ -79,8 +79,7 @@ void check_control(const ControlSettings& control, const FlowCase& flow) {
   if (at_walls > much)
     spdlog::warn(
         "control {}: where its walls meet others that stay they lose up to {:.0f} % of their displacement; "
-        "name "
-        "all patches of what turns, and mesh a gap where it has one",
+        "name all patches of what turns, and mesh a gap where it has one",
         control.name, 100 * at_walls);
 }
 
@@ -112,13 +111,13 @@ void FlowCase::make_lee_dissipative() {
   if (!settings().space.dissipative_lee || norm(motion_.wind()) <= 1) return;
   auto cells = lee_cells(discretization_, comm_);
   const auto owned = cells.begin() + setup_.domain.owned_cells;
-  dissipative_cells_ = comm_.sum(static_cast<GlobalIndex>(std::count(cells.begin(), owned, 1)));
-  if (dissipative_cells_ == 0) return;
+  const auto count = comm_.sum(static_cast<GlobalIndex>(std::count(cells.begin(), owned, 1)));
+  if (count == 0) return;
   discretization_.set_dissipative(std::move(cells));
   spdlog::info(
       "{} cells behind walls that face aft are of first order, with Van Leer's flux "
       "(space.dissipative_lee)",
-      dissipative_cells_);
+      count);
 }
 
 std::vector<std::string> turning_patches(const ControlSettings& control, const MeshSettings& mesh) {

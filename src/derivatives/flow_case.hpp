@@ -72,8 +72,6 @@ class FlowCase {
   void set_steady_loads(std::vector<Load> loads);
   /// Decades that the residual of the steady flow has dropped, with the limiter free.
   Real steady_orders() const { return steady_orders_; }
-  /// Over all ranks, behind walls that face aft in a supersonic stream (lee_cells.hpp).
-  GlobalIndex dissipative_cells() const { return dissipative_cells_; }
   /// What the march has changed about the case; empty: nothing.
   const std::string& remark() const { return remark_; }
   /// What the march did not reach, if it fell short.
@@ -88,7 +86,6 @@ class FlowCase {
   Discretization discretization_;
   Motion motion_;
   ImplicitIteration iteration_;
-  GlobalIndex dissipative_cells_ = 0;
   MarchState march_;
   bool goes_on_ = false;
   FlowReport steady_report_;

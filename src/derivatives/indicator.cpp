@@ -141,7 +141,11 @@ std::vector<Indicator> indicators(ImplicitIteration& iteration, const Conditions
                                   AdjointSolver& solver, std::span<const DerivativeChain> chains) {
   const auto cells = static_cast<std::size_t>(iteration.discretization().domain().owned_cells);
   std::vector<Indicator> out;
-  for (const auto& chain : chains) out.push_back({chain.name, {}, std::vector<Real>(cells)});
+  for (const auto& chain : chains) {
+    auto& one = out.emplace_back();
+    one.name = chain.name;
+    one.of_cells.resize(cells);
+  }
   std::vector<Field> sources(chains.size(), Field(cells));
 
   for (const auto& direction : directions_of(chains)) {
@@ -175,6 +179,8 @@ std::vector<Indicator> indicators(ImplicitIteration& iteration, const Conditions
   auto solved = solver.solve(problems);
   if (solved.size() < problems.size()) return {};
   for (std::size_t i = 0; i < chains.size(); ++i) {
+    out[i].relative_residual = solved[i].relative_residual;
+    out[i].iterations = solved[i].iterations;
     out[i].steady_adjoint = std::move(solved[i].field);
     add_weighted(iteration, steady, out[i].steady_adjoint, out[i].of_cells);
   }

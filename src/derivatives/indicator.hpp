@@ -24,6 +24,8 @@ struct DerivativeChain {
 
 struct Indicator {
   std::string name;
+  Real relative_residual = 1;  ///< of the solve for xi, as Adjoint has it
+  int iterations = 0;
   /// xi, [owned_cells]: a defect d of the steady flow, R(W) + d = 0, changes D by -xi . d.
   std::vector<Conserved<Real>> steady_adjoint;
   /// [owned_cells] What the dissipation on a cell's faces may do to D: half the sum of the magnitudes, for

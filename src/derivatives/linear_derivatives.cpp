@@ -193,10 +193,13 @@ std::string shortfall_of_solve(std::string_view what, Real relative_residual, in
                      -std::log10(relative_residual), orders, iterations);
 }
 
-bool solve_responses(FlowCase& flow, Responses& responses, const SolveObserver& observer) {
+bool solve_responses(FlowCase& flow, Responses& responses, std::vector<std::string>& shortfalls,
+                     const SolveObserver& observer) {
   SensitivitySolver solver(flow.iteration(), flow.conditions(), flow.settings().derivatives, observer.go_on);
-  LinearDerivatives unused;
-  return solve_all(flow, solver, responses, false, observer, unused);
+  LinearDerivatives of_solves;
+  const bool is_done = solve_all(flow, solver, responses, false, observer, of_solves);
+  shortfalls = std::move(of_solves.shortfalls);
+  return is_done;
 }
 
 LinearDerivatives linear_derivatives(FlowCase& flow, Responses& responses, const SolveObserver& observer) {

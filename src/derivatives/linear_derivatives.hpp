@@ -55,9 +55,10 @@ struct LinearDerivatives {
 LinearDerivatives linear_derivatives(FlowCase& flow, Responses& responses,
                                      const SolveObserver& observer = {});
 
-/// The responses alone, with the limiter free. False when the observer ended the solves. Collective. Throws
-/// DivergedError.
-bool solve_responses(FlowCase& flow, Responses& responses, const SolveObserver& observer = {});
+/// The responses alone, with the limiter free, and the solves that did not reach their tolerance. False when
+/// the observer ended them. Collective. Throws DivergedError.
+bool solve_responses(FlowCase& flow, Responses& responses, std::vector<std::string>& shortfalls,
+                     const SolveObserver& observer = {});
 
 /// Share of what is large in a response by which it may be off since the steady flow is so many decades down,
 /// six or more: a bound.

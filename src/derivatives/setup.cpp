@@ -51,11 +51,6 @@ void add_patch_problems(const Case& settings, const std::vector<std::string>& pa
   }
 }
 
-/// The number of a patch.
-Index patch_of(const std::vector<std::string>& names, const std::string& name) {
-  return static_cast<Index>(std::ranges::find(names, name) - names.begin());
-}
-
 /// Adds what is wrong with mesh.aft_jets.
 void add_aft_problems(const Case& settings, const std::vector<std::string>& patch_names,
                       std::vector<Problem>& problems) {
@@ -80,7 +75,7 @@ void make_aft_jets(Setup& setup, const Communicator& comm) {
   const Real scale =
       settings.reference.half_model ? 2 / settings.reference.area : 1 / settings.reference.area;
   for (const auto& name : settings.mesh.aft_jets) {
-    const Real area = comm.sum(part_aft_faces(setup.domain, patch_of(setup.domain.patch_names, name)));
+    const Real area = comm.sum(part_aft_faces(setup.domain, name));
     setup.patch_kinds.push_back(BoundaryKind::jet);
     spdlog::info("{}: {:.3g} reference areas look aft and are a jet", aft_name(name), scale * area);
   }

@@ -124,6 +124,17 @@ class AdjointTest(unittest.TestCase):
                 self.assertIn(part, done.err.splitlines()[-1])
                 self.assertIn("# Status: not_converged", (self.folder / "cut/adjoint.csv").read_text())
 
+    def test_an_indicator_says_what_was_not_reached(self) -> None:
+        """It rests on adjoints, on responses and on one more adjoint. A later run without one leaves none of another flow behind."""
+        done = run(self.folder, "adjoint", "case.toml", "--out", "indicated", "--indicator", "CN_alpha", "--set", "derivatives.max_iterations=2")
+        self.assertEqual(done.codes, [5] * RANKS, done.err)
+        said = " ".join(self.result("indicated")["not_reached"])
+        for part in ("for the adjoint of CN dropped", "for alpha dropped", "for the adjoint of CN_alpha to the steady flow dropped"):
+            self.assertIn(part, said)
+        self.assertTrue((self.folder / "indicated/indicator.vtkhdf").exists())
+        self.run_ok("adjoint", "indicated", "--overwrite", "--set", "freestream.mach=1.9", "--of", "CN")
+        self.assertFalse((self.folder / "indicated/indicator.vtkhdf").exists())
+
     def test_says_what_is_wrong(self) -> None:
         for arguments, part in (
             (("--of", "Cd"), 'no load "Cd"'),
