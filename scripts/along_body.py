@@ -10,7 +10,6 @@ One curve a run. With `--part NAME` of a set of walls of [components]. Needs Deb
 from __future__ import annotations
 
 import argparse
-import csv
 import sys
 from pathlib import Path
 
@@ -19,6 +18,7 @@ try:
     import numpy as np
 
     from drawing import finish
+    from run_csv import rows_of_run
 except ImportError as error:
     sys.exit(f"along_body.py: {error}; run scripts/install.sh, and then this with /usr/bin/python3")
 
@@ -26,18 +26,13 @@ Curve = tuple[np.ndarray, np.ndarray, np.ndarray]  # ends of the slices, per uni
 
 
 def curves_of(folder: Path, part: str) -> dict[str, Curve]:
-    path = folder / "along_body.csv"
     found: dict[str, list[tuple[float, ...]]] = {}
-    try:
-        with open(path, newline="") as file:
-            for row in csv.DictReader(line for line in file if not line.startswith("#")):
-                if row["of"] == part:
-                    numbers = tuple(float(row[key]) for key in ("x_from", "x_to", "per_length", "running"))
-                    found.setdefault(row["name"], []).append(numbers)
-    except OSError as error:
-        sys.exit(f"along_body.py: {path}: {error.strerror}; give the folder of a run of `alphadot derivatives`")
+    for row in rows_of_run(folder, "along_body.csv", "derivatives"):
+        if row["of"] == part:
+            numbers = tuple(float(row[key]) for key in ("x_from", "x_to", "per_length", "running"))
+            found.setdefault(row["name"], []).append(numbers)
     if not found:
-        sys.exit(f"along_body.py: {path} has nothing of {part}")
+        sys.exit(f"along_body.py: {folder / 'along_body.csv'} has nothing of {part}")
     return {name: curve(np.array(rows)) for name, rows in found.items()}
 
 

@@ -9,7 +9,6 @@ One curve a run; the bars are the printed uncertainties. Needs Debian's python3-
 from __future__ import annotations
 
 import argparse
-import csv
 import sys
 from pathlib import Path
 
@@ -18,17 +17,9 @@ try:
     import numpy as np
 
     from drawing import finish
+    from run_csv import rows_of_run
 except ImportError as error:
     sys.exit(f"bode.py: {error}; run scripts/install.sh, and then this with /usr/bin/python3")
-
-
-def rows_of(folder: Path) -> list[dict[str, str]]:
-    path = folder / "frequency.csv"
-    try:
-        with open(path, newline="") as file:
-            return list(csv.DictReader(line for line in file if not line.startswith("#")))
-    except OSError as error:
-        sys.exit(f"bode.py: {path}: {error.strerror}; give the folder of a run of `alphadot frequency`")
 
 
 def main() -> None:
@@ -42,7 +33,7 @@ def main() -> None:
     loads = arguments.of.split(",")
     figure, axes = plt.subplots(len(loads), 3, figsize=(13, 3.8 * len(loads)), squeeze=False, layout="constrained")
     for run in arguments.runs:
-        rows = rows_of(run)
+        rows = rows_of_run(run, "frequency.csv", "frequency")
         for (modulus, phase, nyquist), load in zip(axes, loads, strict=True):
             mine = [row for row in rows if (row["part"], row["coefficient"], row["variable"]) == (arguments.part, load, arguments.by)]
             if not mine:

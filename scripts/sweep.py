@@ -6,6 +6,7 @@
   sweep.py report SWEEP.toml   writes report.html, and its tables and figures as files, of what is done
   sweep.py table SWEEP.toml    writes what is done as one table, CSV and HDF5, and for JSBSim, RocketPy, MATLAB and as text
   sweep.py dynamics SWEEP.toml short period, weathercock and roll mode, static margin and damping, with the masses of the sweep file
+  sweep.py trim SWEEP.toml     deflection and incidence without pitching moment; stability, damping and hinge moments there
   sweep.py extend SWEEP.toml   adds Mach numbers, or cycles to the motions; `run` then does what is new
   sweep.py retry SWEEP.toml    takes the failed runs up again, and begins those anew that are not converged
   sweep.py clean SWEEP.toml    removes the folders of failed and interrupted runs, or of all
@@ -93,6 +94,17 @@ def parse() -> argparse.Namespace:
     )  # fmt: skip
     dynamics = add("dynamics", "short period, weathercock and roll of what is done, with the masses of the sweep file")
     dynamics.add_argument("--program", metavar="FILE", help="the program (default: $ALPHADOT, build/alphadot, or on the PATH)")
+    trim = add("trim", "where controls leave no pitching moment about each centre of gravity, within what was computed")
+    trim.add_argument("--program", metavar="FILE", help="the program (default: $ALPHADOT, build/alphadot, or on the PATH)")
+    trim.add_argument("--series", metavar="NAME", help="label and mesh of the runs (default: most)")
+    trim.add_argument("--control", nargs="+", default=[], metavar="NAME", help="controls (default: those that were deflected)")
+    trim.add_argument("--CN", nargs="+", type=float, default=[], metavar="CN", help="normal forces at which it is wanted")
+    trim.add_argument(
+        "--center", nargs="+", type=center, default=[], metavar="X[,Y,Z]", help="of gravity, in the mesh's unit (default: those of [[mass]])"
+    )
+    trim.add_argument(
+        "--linear", type=float, default=5.0, metavar="DEG", help="how far a control is turned by its derivatives alone (default: %(default)s)"
+    )
     extend = add("extend", "add Mach numbers or cycles")
     extend.add_argument("--mach", type=float, nargs="+", metavar="M", help="Mach numbers to add, for the methods of the sweep")
     extend.add_argument("--method", nargs="+", help="for these methods only")
@@ -113,6 +125,14 @@ def parse() -> argparse.Namespace:
     slurm.add_argument("--partition", help="where to run (default: the cluster's)")
     slurm.add_argument("--submit", action="store_true", help="submit them as well")
     return parser.parse_args()
+
+
+def center(text: str) -> float | list[float]:
+    """x or x,y,z."""
+    numbers = [float(word) for word in text.split(",")]
+    if len(numbers) not in (1, 3):
+        raise argparse.ArgumentTypeError(f"'{text}' is neither X nor X,Y,Z")
+    return numbers if len(numbers) == 3 else numbers[0]
 
 
 def main() -> int:

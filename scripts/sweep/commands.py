@@ -104,6 +104,17 @@ def dynamics(sweep: Sweep, arguments: Namespace) -> int:
     return 0
 
 
+def trim(sweep: Sweep, arguments: Namespace) -> int:
+    from sweep import trim as states
+
+    request = states.Request(arguments.series, arguments.control, arguments.CN, arguments.center, arguments.linear)
+    rows, notes = states.trim(sweep, find_program(arguments.program), request)
+    file = sweep.folder / "table" / "trim.csv"
+    states.write_csv(file, rows, notes)
+    print(f"{states.text(rows, notes)}\nwritten: {file}")
+    return 0
+
+
 def extend(sweep: Sweep, arguments: Namespace) -> int:
     if not arguments.mach and not arguments.cycles:
         raise SweepError("extend needs --mach or --cycles")

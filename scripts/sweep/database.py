@@ -75,6 +75,11 @@ class Point:
         return " ".join(word for word in (self.run.label, self.run.mesh) if word)
 
     @property
+    def panels(self) -> dict[str, dict[str, float]]:
+        """Loads of controls' panels, each by itself: CNp, Ch, Cb, x_cp, s_cp."""
+        return {} if self.image else self.result.get("forces", {}).get("panels", {})
+
+    @property
     def is_deflected(self) -> bool:
         return any(self.run.deflections.values())
 

@@ -11,8 +11,8 @@ from pathlib import Path
 import matplotlib.pyplot as plt
 import numpy as np
 
-from sweep import curves, dynamics, figures, page, surface, tables
-from sweep.controls import read_controls, trim_angles
+from sweep import curves, dynamics, figures, page, surface, tables, trim
+from sweep.controls import read_controls
 from sweep.grid import choose_series, make_grid
 from sweep.plan import Sweep, SweepError
 from sweep.results import Results, finite, relative
@@ -176,21 +176,29 @@ def deflected(results: Results, folder: Path) -> str:
     found, left_out = read_controls(results.points, grid)
     names = ("CA", "CN", "Cm", "CY", "Cn", "Cl")
     rows: list[list] = []
-    trim: list[list] = []
     for control in found:
         for i, j, k in np.ndindex(len(control.degrees), len(control.mach), len(control.alpha)):
             if control.degrees[i]:
                 changes = [float(control.changes[name][i, j, k]) for name in names]
                 rows.append([control.name, control.degrees[i], control.mach[j], control.alpha[k], *changes])
-        trim += [[control.name, *values] for values in trim_angles(control, grid)]
     columns = ["control", "deflection, deg", "Mach", "alpha, deg"]
     idle = {4 + index for index in range(len(names)) if not any(row[4 + index] for row in rows)}
     forms = ["", *[".4g"] * 3, *["+.4g"] * len(names)]
     changed = tables.Table("controls", "Changes by controls, the others at rest", [*columns, *names], rows, forms, hidden=idle)
-    held = "Trim: the incidence without a pitching moment, between those computed"
-    trimmed = tables.Table("trim", held, [*columns[:3], "alpha, deg", "CN"], trim, ["", ".4g", ".4g", ".3f", ".4f"])
     left = "".join(f'<p class="note">Left out: {escape(line)}.</p>' for line in left_out)
-    return write(changed, folder) + write(trimmed, folder) + left
+    return write(changed, folder) + trimmed(results, folder) + left
+
+
+def trimmed(results: Results, folder: Path) -> str:
+    """Where Cm = 0 about each centre of gravity, or what is in the way."""
+    try:
+        rows, notes = trim.trim(results.sweep, results.program, trim.Request())
+    except SweepError as error:
+        return f'<p class="note">Trim: {escape(str(error))}.</p>'
+    head, cells, forms = trim.shown(rows) if rows else ([], [], [])
+    name = "Trim: no pitching moment about the centre; bilinear between the angles computed; Ch: hinge moments of panels"
+    table = tables.Table("trim", name, head, cells, forms)
+    return write(table, folder) + "".join(f'<p class="note">{escape(note)}.</p>' for note in notes)
 
 
 def motion(results: Results) -> tuple[str, str]:

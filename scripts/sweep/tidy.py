@@ -20,6 +20,7 @@ ABOUT = (
     "Angles in degrees; derivatives per radian, rates times length / 2V; NAME.uncertainty is a half width, the sum of NAME.<source>.",
     "CA aft, CN up, CY starboard; Cl, Cm, Cn about axes forward, starboard, down; about the moment centre (x_ref, y_ref, z_ref).",
     "alpha_t and phi: total incidence, and the roll angle of the cross-flow from below towards starboard. CN@PATCH: the part of a patch.",
+    "Of a control's panel by itself: CNp across its hinge, Ch about it, Cb of bending; x_cp, s_cp from the hinge's point, in the mesh's unit.",
     "image: planes in which the run is mirrored (its own symmetry), empty for a run itself. x_cp = x_ref - length Cm / CN.",
 )
 
@@ -59,10 +60,16 @@ def columns_of(points: list[Point]) -> Columns:
         loads = [own.get(patch, NOTHING) for own in components]
         for name in COEFFICIENTS:
             out[f"{name}@{patch}"] = [own.get(name) for own in loads]
+    panels = [point.panels for point in points]
+    for panel in dict.fromkeys(panel for own in panels for panel in own):
+        loads = [own.get(panel, NOTHING) for own in panels]
+        for name in PANEL:
+            out[f"{name}@{panel}"] = [own.get(name) for own in loads]
     return out | provenance(points)
 
 
 NOTHING: dict = {}
+PANEL = ("CNp", "Ch", "Cb", "x_cp", "s_cp")
 
 
 def provenance(points: list[Point]) -> Columns:
