@@ -78,9 +78,10 @@ struct FaceBatch {
     for (std::size_t i = 0; i < 5; ++i) flux[i][at] = from.flux[i][at];
   }
 
-  /// flux = |area| flux_function(left, right, normal, speed), for the compiler to vectorise.
+  /// flux = |area| flux_function(left, right, normal, speed), for the compiler to vectorise, which it does
+  /// only of what it has inlined.
   template <class FluxFunction>
-  void evaluate(const FluxFunction& flux_function) {
+  [[gnu::flatten]] void evaluate(const FluxFunction& flux_function) {
     for (std::size_t lane = 0; lane < lanes; ++lane) {
       const Primitive<T> l{{left[0][lane], left[1][lane], left[2][lane], left[3][lane], left[4][lane]}};
       const Primitive<T> r{{right[0][lane], right[1][lane], right[2][lane], right[3][lane], right[4][lane]}};
