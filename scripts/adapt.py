@@ -31,6 +31,7 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 from adaptation.loop import Adaptation, Budget, Stream
 from adaptation.steps import Interrupted, StepError, Steps, tell, write_json
 from adaptation.tolerance import ToleranceError, read_tolerances
+from meshing.sources import digest_of, files_of
 
 GOALS = "Cm_alpha,Cm_q,Cm_alphadot"
 ASKED = "asked.json"  # what a folder is for
@@ -101,9 +102,10 @@ def description_of(case: Path) -> tuple[Path, Path | None, str | None]:
 
 
 def prepare(folder: Path, arguments: argparse.Namespace, description: Path) -> None:
-    """Makes the folder, or makes sure that what is in it was made for the same. Raises StepError."""
+    """Makes the folder, or makes sure that what is in it was made for the same. Raises StepError, OSError."""
+    files = dict.fromkeys((arguments.case, *files_of(description)))
     asked = {
-        "case": str(arguments.case.resolve()), "text": description.read_bytes().hex() if description.suffix == ".toml" else "",
+        "case": str(arguments.case.resolve()), "content": digest_of(files),
         "goals": arguments.goals, "mach": arguments.mach, "settings": arguments.settings, "plain": arguments.plain,
     }  # fmt: skip
     file = folder / ASKED
@@ -136,7 +138,10 @@ def main() -> int:
         print(report.table(outcome, adaptation))
         print(f"written to {folder}: adaptation.json, adaptation.csv, convergence.png, cells.png")
         return 0 if outcome.status == "converged" else 5
-    except (ToleranceError, StepError, OSError) as error:
+    except OSError as error:
+        tell(f"alphadot: error: {error.filename}: {error.strerror}")
+        return 1
+    except (ToleranceError, StepError) as error:
         for line in str(error).splitlines():
             tell(line if line.startswith("alphadot") else f"alphadot: error: {line}")
         return 1

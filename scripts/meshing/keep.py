@@ -3,19 +3,18 @@
 from __future__ import annotations
 
 import argparse
-import hashlib
 import os
 import re
 import shutil
 import sys
 import tempfile
-import tomllib
 from collections.abc import Callable
 from pathlib import Path
 
 import gmsh
 
 from meshing.limits import LEVELS
+from meshing.sources import digest_of, files_of
 from meshing.toml_file import DescriptionError
 
 FOLDER = "meshes"
@@ -54,29 +53,13 @@ def keep(arguments: argparse.Namespace, make: Callable[[argparse.Namespace, Path
 def _digest(arguments: argparse.Namespace) -> str:
     """Of the description, the surface that it names, what is asked for, and the programs that make the mesh."""
     path = arguments.description
-    hashed = hashlib.sha256(gmsh.__version__.encode())
     asked = (sorted(arguments.level), arguments.cells, arguments.mach, arguments.model, arguments.stages, path.suffix.lower())
-    hashed.update(repr(asked).encode())
     scripts = Path(__file__).resolve().parents[1]
-    for file in [path, *_others(path), *sorted(scripts.glob("meshing/*.py")), *sorted(scripts.glob("exact/*.py"))]:
-        try:
-            hashed.update(hashlib.sha256(file.read_bytes()).digest())
-        except OSError as error:
-            raise DescriptionError([f"{file}: {error.strerror}"]) from None
-    return hashed.hexdigest()[:12]
-
-
-def _others(path: Path) -> list[Path]:
-    """Files beside a description that it takes its body from, where they are."""
-    files = [path]
-    if path.suffix.lower() == ".toml":
-        try:
-            named = tomllib.loads(path.read_text()).get("surface", {}).get("file")
-        except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError, AttributeError):
-            return []  # the reader will say what is wrong
-        files = [path.parent / named] if isinstance(named, str) else []
-    files += [file.with_name("Config.xml") for file in files if file.suffix.lower() == ".tri"]
-    return [file for file in files if file != path and file.is_file()]
+    programs = [*sorted(scripts.glob("meshing/*.py")), *sorted(scripts.glob("exact/*.py"))]
+    try:
+        return digest_of([*files_of(path), *programs], (gmsh.__version__, asked))
+    except OSError as error:
+        raise DescriptionError([f"{error.filename}: {error.strerror}"]) from None
 
 
 def _check_mach(case: Path, arguments: argparse.Namespace) -> None:

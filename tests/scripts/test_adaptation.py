@@ -4,6 +4,7 @@ steps that compute nothing. The expected numbers are the ones that the made-up v
 
 from __future__ import annotations
 
+import argparse
 import sys
 import tempfile
 import unittest
@@ -14,6 +15,7 @@ import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "scripts"))
 
+import adapt
 from adaptation.family import Member, family_factors, intervals
 from adaptation import loop
 from adaptation.loop import Adaptation, Budget, Stream
@@ -248,6 +250,38 @@ class LoopTest(unittest.TestCase):
         self.run_to(0.5, Budget(200_000), steps, adapts=False)
         self.assertFalse([call for call in steps.calls if call[0] == "adjoint"])
         self.assertTrue(all(call[2] == [] for call in steps.calls if call[0].startswith("mesh_")))
+
+
+class WhatAFolderIsFor(unittest.TestCase):
+    """An adaptation goes on in a folder only where all that its meshes and runs come from is what it was."""
+
+    def setUp(self) -> None:
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.folder = Path(temporary.name)
+        for name, text in (("case.toml", '[mesh]\nfrom = "missile.toml"\n'), ("missile.toml", '[surface]\nfile = "body.tri"\n'),
+                           ("body.tri", "a"), ("Config.xml", "a"), ("rocket.ork", "a")):  # fmt: skip
+            (self.folder / name).write_text(text)
+
+    def prepare(self, case: str, overwrite: bool = False) -> None:
+        arguments = argparse.Namespace(
+            case=self.folder / case, goals=["Cm_q"], mach=None, settings=[], plain=False, overwrite=overwrite
+        )  # fmt: skip
+        adapt.prepare(self.folder / f"{case}-adapted", arguments, adapt.description_of(arguments.case)[0])
+
+    def test_every_file_counts(self) -> None:
+        for case, files in (("case.toml", ("case.toml", "missile.toml", "body.tri", "Config.xml")), ("rocket.ork", ("rocket.ork",))):
+            for name in files:
+                with self.subTest(case=case, file=name):
+                    self.prepare(case, overwrite=True)
+                    self.prepare(case)
+                    file = self.folder / name
+                    before = file.read_text()
+                    file.write_text(before + "\n")
+                    with self.assertRaisesRegex(StepError, "something else"):
+                        self.prepare(case)
+                    file.write_text(before)
+                    self.prepare(case)
 
 
 if __name__ == "__main__":
