@@ -54,7 +54,7 @@ class DisplacedMesh {
   const Discretization& about_;
   Subdomain domain_;
   Discretization discretization_;
-  Residual<Real> residual_;
+  Residual residual_;
 };
 
 /// (above - below) / (2 step), into above.
@@ -128,7 +128,7 @@ HeldFlowChange change_by_displacement(ImplicitIteration& iteration, const Condit
 HeldFlowChange change_by_velocity(ImplicitIteration& iteration, const Conditions<Real>& conditions,
                                   std::span<const Vec3> velocity) {
   const Discretization& discretization = iteration.discretization();
-  Residual<Real> residual(discretization, iteration.communicator());
+  Residual residual(discretization, iteration.communicator());
   auto out = empty_change(discretization), below = out;
   for (auto* side : {&below, &out}) {
     const auto speeds =

@@ -12,7 +12,7 @@ NewtonStep::NewtonStep(ImplicitIteration& iteration, const Conditions<Real>& con
   const Discretization& discretization = iteration.discretization();
   auto& flow = iteration.flow();
   std::vector<Conserved<Real>> left(static_cast<std::size_t>(discretization.domain().owned_cells));
-  Residual<Real>(discretization, iteration.communicator())
+  Residual(discretization, iteration.communicator())
       .evaluate(flow, conditions, discretization.space().order, left);
   const auto solved = solver.solve({{.name = "the steady flow", .change = {}, .defect = left}});
   before_.assign(flow.values().begin(), flow.values().end());

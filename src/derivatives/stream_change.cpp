@@ -20,7 +20,7 @@ std::vector<Load> evaluate(ImplicitIteration& iteration, const FlightCondition& 
   Discretization discretization(about.domain(), about.patch_kinds(), about.space(),
                                 settings.freestream.gamma);
   discretization.set_dissipative(about.dissipative_cells());
-  Residual<Real> at(discretization, comm);
+  Residual at(discretization, comm);
   at.evaluate(iteration.flow(),
               steady_conditions(motion.wind(), settings.motion.axis_point, settings.freestream.gamma,
                                 motion.steady_rotation()),

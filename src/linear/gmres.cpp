@@ -12,7 +12,7 @@ namespace {
 constexpr Real left_over = 0.05;
 }  // namespace
 
-Gmres::Gmres(const Discretization& discretization, const Communicator& comm, const Residual<Real>& residual,
+Gmres::Gmres(const Discretization& discretization, const Communicator& comm, const Residual& residual,
              LinearSolver& inside, int directions)
     : discretization_(discretization),
       comm_(comm),

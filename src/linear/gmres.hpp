@@ -18,7 +18,7 @@ class Gmres final : public LinearSolver {
  public:
   /// For steps on `residual`, whose latest evaluation is at the flow of linearise(); at most so many
   /// directions a solve. Residual and scheme must outlive this.
-  Gmres(const Discretization& discretization, const Communicator& comm, const Residual<Real>& residual,
+  Gmres(const Discretization& discretization, const Communicator& comm, const Residual& residual,
         LinearSolver& inside, int directions);
 
   void linearise(const FlowField<Real>& flow, const Conditions<Real>& conditions,
@@ -36,7 +36,7 @@ class Gmres final : public LinearSolver {
 
   const Discretization& discretization_;
   const Communicator& comm_;
-  const Residual<Real>& residual_;
+  const Residual& residual_;
   LinearSolver& inside_;
   KrylovBasis space_;
   std::optional<Linearisation> linearisation_;

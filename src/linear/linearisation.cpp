@@ -49,21 +49,15 @@ Five<Real> by_variable(const Conserved<Dual<N>>& flux, int variable) {
   constexpr int speed_variable = 5;
   using Number = Dual<6>;
   const Subdomain& domain = discretization_.domain();
+  const int order = discretization_.space().order;
   for (std::size_t face = 0; face < faces_.size(); ++face) {
-    const auto [left, right] = domain.faces[face];
+    const auto at = static_cast<Index>(face);
     const auto [area, normal, center] = interior_geometry(domain, face);
-    Primitive<Real> wl = flow_[left], wr = flow_[right];
+    const auto [wl, wr, scaling] = face_states(domain, flow_, reconstruction, at, order);
     Face& out = faces_[face];
-    out.scaling = 0;
-    if (discretization_.space().order > 1) {
-      const auto l = extrapolated(wl, reconstruction[left], center - domain.center[left]);
-      const auto r = extrapolated(wr, reconstruction[right], center - domain.center[right]);
-      out.scaling = std::min(positivity_scaling(l, wl), positivity_scaling(r, wr));
-      wl += out.scaling * (l - wl);
-      wr += out.scaling * (r - wr);
-    }
-    Number speed = conditions_.face_speed(static_cast<Index>(face), center, normal);
-    const FluxModel& model = discretization_.flux_of(static_cast<Index>(face));
+    out.scaling = scaling;
+    Number speed = conditions_.face_speed(at, center, normal);
+    const FluxModel& model = discretization_.flux_of(at);
     out.right = by_state(area * numerical_flux(model, constant<6>(wl), independent<6>(wr), normal, speed));
     speed.d[speed_variable] = 1;
     const auto flux = area * numerical_flux(model, independent<6>(wl), constant<6>(wr), normal, speed);
@@ -86,14 +80,9 @@ void Linearisation::differentiate_boundary(const Reconstruction<Real>& reconstru
   for (std::size_t i = 0; i < boundary_faces_.size(); ++i) {
     const auto& face = domain.boundary_faces[i];
     const auto [area, normal, center] = boundary_geometry(domain, i);
-    Primitive<Real> w = flow_[face.cell];
+    const auto [w, scaling] = inner_state(domain, flow_, reconstruction, i, discretization_.space().order);
     BoundaryFace& out = boundary_faces_[i];
-    out.scaling = 0;
-    if (discretization_.space().order > 1) {
-      const auto carried = extrapolated(w, reconstruction[face.cell], center - domain.center[face.cell]);
-      out.scaling = positivity_scaling(carried, w);
-      w += out.scaling * (carried - w);
-    }
+    out.scaling = scaling;
     const auto inside = independent<9>(w);
     Number speed = conditions_.boundary_speed(i, center, normal);
     speed.d[speed_variable] = 1;

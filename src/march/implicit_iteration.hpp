@@ -47,7 +47,7 @@ class ImplicitIteration {
 
   FlowField<Real>& flow() { return flow_; }
   const FlowField<Real>& flow() const { return flow_; }
-  const Residual<Real>& residual() const { return residual_; }
+  const Residual& residual() const { return residual_; }
   /// The implicit scheme, whatever is around it.
   LinearSolver& linear_solver() { return *solver_; }
   const Vec3& moment_center() const { return moment_center_; }
@@ -102,7 +102,7 @@ class ImplicitIteration {
   Vec3 moment_center_;
   Reduction reduction_{[] { return std::vector<Real>{}; }, [](auto) {}};
   FlowField<Real> flow_;
-  Residual<Real> residual_;
+  Residual residual_;
   std::unique_ptr<Gmres> krylov_;            // around the scheme, while it is in use
   std::vector<Conserved<Real>> values_;      // [owned_cells]
   std::vector<Primitive<Real>> update_;      // [owned_cells]; after advance(): the flow before it

@@ -23,7 +23,7 @@ Load total_of(std::span<const Load> loads) {
   return out;
 }
 
-std::vector<Real> excess_pressures(const Discretization& discretization, const Residual<Real>& residual) {
+std::vector<Real> excess_pressures(const Discretization& discretization, const Residual& residual) {
   std::vector<Real> excess(residual.boundary_pressures().begin(), residual.boundary_pressures().end());
   for (Real& pressure : excess) pressure -= 1 / discretization.gamma();
   return excess;
@@ -53,7 +53,7 @@ std::vector<Load> wall_loads(const Discretization& discretization, std::span<con
   return patch_loads(discretization, face_loads(discretization, excess_pressures, center));
 }
 
-std::vector<Load> wall_loads(const Discretization& discretization, const Residual<Real>& residual,
+std::vector<Load> wall_loads(const Discretization& discretization, const Residual& residual,
                              const Vec3& center) {
   return wall_loads(discretization, excess_pressures(discretization, residual), center);
 }

@@ -30,7 +30,7 @@ std::vector<Load> loads_of(std::span<const Real> numbers);
 Load total_of(std::span<const Load> loads);
 
 /// [boundary_faces] of the latest evaluation: pressure above that of the free stream.
-std::vector<Real> excess_pressures(const Discretization& discretization, const Residual<Real>& residual);
+std::vector<Real> excess_pressures(const Discretization& discretization, const Residual& residual);
 /// [boundary_faces] load of each face of a wall, of pressures above that of the free stream, moments about
 /// `center`; zero elsewhere.
 std::vector<Load> face_loads(const Discretization& discretization, std::span<const Real> excess_pressures,
@@ -41,7 +41,7 @@ std::vector<Load> patch_loads(const Discretization& discretization, std::span<co
 /// Load of every patch that is a wall (zero for others): integral of (p - p_inf) n, moments about `center`,
 /// with the pressures of the latest evaluation.
 /// Summed over this rank only; the sum over ranks is the caller's, together with its other numbers.
-std::vector<Load> wall_loads(const Discretization& discretization, const Residual<Real>& residual,
+std::vector<Load> wall_loads(const Discretization& discretization, const Residual& residual,
                              const Vec3& center);
 /// The same of pressures above that of the free stream, [boundary_faces].
 std::vector<Load> wall_loads(const Discretization& discretization, std::span<const Real> excess_pressures,

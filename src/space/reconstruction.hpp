@@ -79,4 +79,48 @@ class Reconstruction {
   std::span<const LimiterSlope> slopes_;  // [owned_cells] or none
 };
 
+/// States that the cells of a face carry to it, and the positivity scaling that they share (0 at order 1).
+template <class T>
+struct FaceStates {
+  Primitive<T> left, right;
+  T scaling;
+};
+
+/// Of a face between cells. At `order` 1 the states of the cells.
+template <class T>
+FaceStates<T> face_states(const Subdomain& domain, const FlowField<T>& flow,
+                          const Reconstruction<T>& reconstruction, Index face, int order) {
+  const auto [left, right] = domain.faces[face];
+  const Primitive<T>&wl = flow[left], &wr = flow[right];
+  if (order == 1) return {wl, wr, T(0)};
+  const Vec3& center = domain.face_center[face];
+  const auto l = extrapolated(wl, reconstruction[left], center - domain.center[left]);
+  const auto r = extrapolated(wr, reconstruction[right], center - domain.center[right]);
+  const T of_left = positivity_scaling(l, wl), of_right = positivity_scaling(r, wr);
+  const T scaling = of_left < of_right ? of_left : of_right;
+  if (scaling < T(1)) return {wl + scaling * (l - wl), wr + scaling * (r - wr), scaling};
+  return {l, r, T(1)};
+}
+
+/// State that a cell carries to its boundary face, and its positivity scaling (0 at order 1).
+template <class T>
+struct InnerState {
+  Primitive<T> inside;
+  T scaling;
+};
+
+/// Of a boundary face. At `order` 1 the state of the cell.
+template <class T>
+InnerState<T> inner_state(const Subdomain& domain, const FlowField<T>& flow,
+                          const Reconstruction<T>& reconstruction, std::size_t face, int order) {
+  const Index cell = domain.boundary_faces[face].cell;
+  const Primitive<T>& w = flow[cell];
+  if (order == 1) return {w, T(0)};
+  const auto carried =
+      extrapolated(w, reconstruction[cell], domain.boundary_center[face] - domain.center[cell]);
+  const T scaling = positivity_scaling(carried, w);
+  if (scaling < T(1)) return {w + scaling * (carried - w), scaling};
+  return {carried, T(1)};
+}
+
 }  // namespace alphadot

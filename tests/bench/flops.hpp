@@ -1,4 +1,4 @@
-// Flops of the residual, counted by its own source.
+// Flops of the residual, counted by the templates that it is made of.
 #pragma once
 
 #include "bench/counted.hpp"

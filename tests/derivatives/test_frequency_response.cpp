@@ -52,7 +52,7 @@ TEST_F(FrequencyTest, SolvesTheEquation) {
           steady.iteration.flow()[cell] + share * found.field[part * cells + static_cast<std::size_t>(cell)];
     const auto there = steady_conditions({ramp_mach + (part == 0 ? share : 0), 0, 0}, {}, gamma_air);
     std::vector<Conserved<Real>> out(box.cells());
-    Residual<Real>(box.discretization, comm).evaluate(flow, there, 2, out);
+    Residual(box.discretization, comm).evaluate(flow, there, 2, out);
     return out;
   };
   Real left = 0, whole = 0;

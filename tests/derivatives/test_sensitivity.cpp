@@ -156,7 +156,7 @@ TEST_P(SensitivityTest, AnswersARateWithTheMassOfTheFlow) {
     for (Index cell = 0; cell < box.domain.owned_cells; ++cell)
       flow[cell] = iteration.flow()[cell] + share * rate.field[cell];
     std::vector<Conserved<Real>> out(box.cells());
-    Residual<Real>(box.discretization, comm).evaluate(flow, ramp.conditions, 2, out);
+    Residual(box.discretization, comm).evaluate(flow, ramp.conditions, 2, out);
     return out;
   };
   const auto above = residual_at(step), below = residual_at(-step);

@@ -78,7 +78,7 @@ struct Functional {
   const Conditions<Real> conditions{free_stream(wind, gamma_air), tumbling_grid(), wind};
   BoxCase box;
   FlowField<Real> flow;
-  Residual<Real> residual;
+  Residual residual;
   std::vector<Conserved<Real>> values, adjoint;
   std::vector<Load> weights;
 };

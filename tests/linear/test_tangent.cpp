@@ -43,7 +43,7 @@ struct Moved {
       : values(box.cells()) {
     FlowField<Real> flow(box.domain, box.comm);
     fill(flow, box.domain, rough_state);
-    Residual<Real> residual(box.discretization, box.comm);
+    Residual residual(box.discretization, box.comm);
     if (limiter_held) {
       residual.evaluate(flow, base, 2, values);
       residual.freeze_limiter(true);
@@ -77,7 +77,7 @@ void expect_central_differences(const SpaceSettings& space, bool limiter_held, R
   const Conditions<Real> conditions{free_stream(wind, gamma_air), tumbling_grid(), wind};
 
   std::vector<Conserved<Real>> values(box.cells());
-  Residual<Real> residual(box.discretization, box.comm);
+  Residual residual(box.discretization, box.comm);
   residual.evaluate(flow, conditions, 2, values);
   Linearisation linearisation(box.discretization, box.comm, flow, residual.reconstruction(), conditions);
   if (limiter_held) linearisation.hold_limiter();
@@ -129,7 +129,7 @@ TEST_P(TangentTest, VanishesForChangesOfTheWholeStream) {
   FlowField<Real> flow(box.domain, box.comm);
   fill(flow, box.domain, [&](const Vec3&, GlobalIndex) { return conditions.free_stream; });
   std::vector<Conserved<Real>> values(box.cells());
-  Residual<Real> residual(box.discretization, box.comm);
+  Residual residual(box.discretization, box.comm);
   residual.evaluate(flow, conditions, 2, values);
   const Linearisation linearisation(box.discretization, box.comm, flow, residual.reconstruction(),
                                     conditions);

@@ -73,7 +73,7 @@ struct Linearised {
   BoxCase box;
   FlowField<Real> flow;
   Conditions<Real> conditions;
-  Residual<Real> residual;
+  Residual residual;
   std::optional<Linearisation> linearisation;
 };
 

@@ -107,7 +107,7 @@ std::vector<Conserved<Real>> residual_less(const BoxCase& box, const Vec3& shift
     return w;
   });
   std::vector<Conserved<Real>> out(box.cells());
-  Residual<Real>(box.discretization, box.comm).evaluate(flow, conditions, 2, out);
+  Residual(box.discretization, box.comm).evaluate(flow, conditions, 2, out);
   return out;
 }
 

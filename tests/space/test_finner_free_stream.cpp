@@ -27,7 +27,7 @@ TEST(FinnerFreeStream, IsKeptUnderAnyUniformFieldVelocity) {
       SpaceSettings space;
       space.flux = flux;
       const Discretization discretization(domain, open, space, gamma);
-      Residual<Real> residual(discretization, comm);
+      Residual residual(discretization, comm);
       FlowField<Real> flow(domain, comm);
       const auto stream = free_stream(Vec3{2.5, 0, 0.065}, gamma);
       std::fill(flow.values().begin(), flow.values().end(), stream);

@@ -27,7 +27,7 @@ class FreeStream : public testing::TestWithParam<std::tuple<FluxKind, int>> {
     FlowField<Real> flow(box.domain, box.comm);
     fill(flow, box.domain, [&](const Vec3&, GlobalIndex) { return conditions.free_stream; });
     std::vector<Conserved<Real>> out(box.cells());
-    Residual<Real>(box.discretization, box.comm).evaluate(flow, conditions, order(), out);
+    Residual(box.discretization, box.comm).evaluate(flow, conditions, order(), out);
     return out;
   }
   static void expect_cell(const Conserved<Real>& found, const Conserved<Real>& expected) {

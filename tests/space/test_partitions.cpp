@@ -17,7 +17,7 @@ std::vector<Five<Real>> residual_of(const BoxCase& box, const Conditions<Real>& 
   FlowField<Real> flow(box.domain, box.comm);
   fill(flow, box.domain, rough_state);
   std::vector<Conserved<Real>> values(box.cells());
-  Residual<Real>(box.discretization, box.comm).evaluate(flow, conditions, order, values);
+  Residual(box.discretization, box.comm).evaluate(flow, conditions, order, values);
   return by_cell_id(box.domain, box.comm, values);
 }
 

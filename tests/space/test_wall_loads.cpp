@@ -25,7 +25,7 @@ std::vector<Load> loads(const BoxSettings& settings, const BoxSides& sides, int 
   fill(flow, box.domain, [&](const Vec3& x, GlobalIndex) {
     return Primitive<Real>{{1, 0, 0, 0, pressure(x)}};
   });
-  Residual<Real> residual(box.discretization, comm);
+  Residual residual(box.discretization, comm);
   std::vector<Conserved<Real>> values(box.cells());
   residual.evaluate(flow, {free_stream(Vec3{}, gamma_air), {}}, order, values);
   auto out = wall_loads(box.discretization, residual, center);

@@ -48,7 +48,7 @@ class FirstOrder {
  private:
   const BoxCase& box_;
   Conditions<Real> conditions_;
-  Residual<Real> residual_;
+  Residual residual_;
 };
 
 /// Derivative of the conserved state along a change of the primitive one, by the product rule.

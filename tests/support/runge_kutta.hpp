@@ -35,7 +35,7 @@ class RungeKutta3 {
 
   const BoxCase& box_;
   Conditions<Real> conditions_;
-  Residual<Real> residual_;
+  Residual residual_;
   std::vector<Conserved<Real>> values_, old_;
 };
 
