@@ -25,9 +25,9 @@ try:
 except ImportError as error:
     sys.exit(f"mesh.py: {error}; install the Debian packages python3-gmsh and python3-numpy and run with /usr/bin/python3")
 
-# Cell size h on the surface, relative to the distance from the apex. The half model has about 10, 30, 100, 250 and 700 thousand
+# Cell size h on the surface, relative to the distance from the apex. The half model has about 10, 50, 100, 250 and 700 thousand
 # tetrahedra.
-LEVELS = {"tiny": 0.0705, "small": 0.0435, "coarse": 0.029, "medium": 0.0206, "fine": 0.0147}
+LEVELS = {"tiny": 0.0705, "small": 0.036, "coarse": 0.029, "medium": 0.0206, "fine": 0.0147}
 GROWTH = 4.0  # of the cell size with the distance from the surface, in h
 TIP = 0.06  # nearer to the apex than this, cells do not become smaller
 
