@@ -18,8 +18,8 @@ class SurfaceSensitivity {
     Vec3 derivative;  ///< dJ / dposition, the points inside held
   };
 
-  /// From every rank's part of dJ/dX, [points]. Collective; for the moment 64 bytes for each point of the
-  /// whole mesh on every rank.
+  /// From every rank's part of dJ/dX, [points]. Collective; throws InputError where a rank has too many
+  /// points to exchange.
   SurfaceSensitivity(const Discretization& discretization, const Communicator& comm,
                      std::span<const Vec3> by_points);
 
