@@ -18,6 +18,7 @@ std::vector<TableRow> balance_rows(const FlightCondition& settings, const Estima
   point.value.value += settings.reference.moment_center.x;
   for (auto& [source, part] : point.parts) part *= length;
   margin.converged = point.converged = !estimated.unconverged.contains(Variable::alpha);
+  margin.group = point.group = Group::longitudinal;
   return {margin, point};
 }
 

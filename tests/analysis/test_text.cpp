@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <map>
 #include <regex>
 #include <sstream>
@@ -63,14 +64,36 @@ TEST(Table, CsvKeepsFullPrecision) {
   int comments = 0;
   while (std::getline(lines, line) && line[0] == '#') ++comments;
   EXPECT_EQ(comments, 3);
-  EXPECT_EQ(line, "name,value,uncertainty,method,converged");
+  EXPECT_EQ(line, "name,value,uncertainty,method,converged,group");
   std::getline(lines, line);
   std::smatch words;
   ASSERT_TRUE(
-      std::regex_match(line, words, std::regex("Cm_alphadot,([^,]+),([^,]+),\"plunge, k = 0.01\",yes")))
+      std::regex_match(line, words, std::regex("Cm_alphadot,([^,]+),([^,]+),\"plunge, k = 0.01\",yes,")))
       << line;
   EXPECT_EQ(std::stod(words[1]), -23.0 / 7);
   EXPECT_EQ(std::stod(words[2]), 1.0 / 3);
+}
+
+// Longitudinal, lateral, cross and controls; what is not told from zero is named once, and in no line.
+TEST(Table, IsGroupedAndSaysZerosOnce) {
+  DerivativeSet derivatives;
+  derivatives[Variable::alpha] = {.CA = {0.01, 0.02}, .CY = {1e-6, 0.02}, .CN = {9, 0.02}, .Cl = {0.3, 0.02}};
+  derivatives[Variable::beta] = {.CY = {-9, 0.02}, .CN = {0.02, 0.02}, .Cn = {30, 0.02}};
+  derivatives[control_variable("rudder")] = {.CN = {1e-3, 0.02}, .Cn = {-4, 0.02}};
+  const auto rows = rows_of(derivatives, "m");
+  const TableHead head{example().reference};
+  const auto table = derivative_table(rows, head), csv = derivative_csv(rows, head);
+  EXPECT_TRUE(std::regex_search(
+      table,
+      std::regex("longitudinal\nCA_alpha .*\nCN_alpha .*\n  lateral\nCY_beta .*\nCn_beta .*\n  cross\n"
+                 "Cl_alpha .*\n  controls\nCn_rudder .*\nZero within their ±: CY_alpha CN_beta CN_rudder\n")))
+      << table;
+  EXPECT_TRUE(contains(csv, "# Zero within their ±: CY_alpha CN_beta CN_rudder\n")) << csv;
+  EXPECT_TRUE(contains(csv, ",yes,cross\nCN_beta,")) << csv;
+  derivatives[Variable::alpha].CY.uncertainty = std::numeric_limits<Real>::infinity();
+  EXPECT_TRUE(contains(derivative_table(rows_of(derivatives, "m"), head), "\nCY_alpha "));
+  const auto half = rows_of({{Variable::alpha, {.CA = {1, 1}, .CN = {9, 1}}}}, "m");
+  EXPECT_FALSE(contains(derivative_table(half, head), "longitudinal")) << "one group needs no name";
 }
 
 // What a run did not reach, and that no mesh was assessed, stand beside the numbers.
@@ -86,8 +109,8 @@ TEST(Table, SaysHowFarItsNumbersAreToBeTrusted) {
   EXPECT_TRUE(std::regex_search(table, std::regex("\nCm_alphadot .*linear solve; not converged\n")));
   EXPECT_TRUE(std::regex_search(table, std::regex("\nCm_alpha .*linear solve\n")));
   EXPECT_TRUE(contains(csv, "# Status: not_converged: 2 of 3 decades\n"));
-  EXPECT_TRUE(std::regex_search(csv, std::regex("\nCm_alphadot,.*,no\n")));
-  EXPECT_TRUE(std::regex_search(csv, std::regex("\nCm_alpha,.*,yes\n")));
+  EXPECT_TRUE(std::regex_search(csv, std::regex("\nCm_alphadot,.*,no,longitudinal\n")));
+  EXPECT_TRUE(std::regex_search(csv, std::regex("\nCm_alpha,.*,yes,longitudinal\n")));
   for (auto& row : rows) row.parts = {{"linear", 0.01}, {"mesh", 0.02}};
   EXPECT_EQ(uncertainty_scope(rows), "solver and mesh");
   rows.back().parts.pop_back();
