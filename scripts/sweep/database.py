@@ -30,6 +30,14 @@ def by_control(name: str) -> str | None:
     return variable if other else None
 
 
+def group(name: str) -> str:
+    """longitudinal, lateral, cross (loads out of the plane of symmetry by variables in it, and the reverse) or controls."""
+    if by_control(name):
+        return "controls"
+    coefficient, variable = (word in ODD["y"] for word in name.split("_", 1))
+    return "cross" if coefficient != variable else "lateral" if coefficient else "longitudinal"
+
+
 def in_order(names: Iterable[str]) -> list[str]:
     """Names of derivatives as tables have them: by flight variables, then by controls as they come."""
     found = dict.fromkeys(names)

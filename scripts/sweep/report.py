@@ -235,8 +235,10 @@ def loops(results: Results, folder: Path) -> str:
 
 
 def derivatives(results: Results, folder: Path) -> str:
-    shown = (tables.derivative_table(results), tables.side_table(results), tables.force_table(results))
-    return "".join(write(table, folder) for table in shown if table.rows)
+    cross, zeros = tables.cross_tables(results)
+    shown = (tables.derivative_table(results), tables.side_table(results), cross, tables.control_table(results), tables.force_table(results))
+    note = f'<p class="note">Zero within their ± in every run: {escape(", ".join(zeros))}.</p>' if zeros else ""
+    return "".join(write(table, folder) for table in shown if table.rows) + note
 
 
 def pressures(results: Results, folder: Path) -> str:

@@ -7,7 +7,7 @@ import io
 import math
 from dataclasses import dataclass, field
 
-from sweep.database import SIDE
+from sweep.database import COEFFICIENTS, KNOWN, SIDE, by_control, group, in_order
 from sweep.results import Entry, Results, finite, relative
 from sweep.text import duration
 from table_one import FREE_FLIGHT_CENTER
@@ -132,15 +132,57 @@ def derivative_table(results: Results) -> Table:
     )
 
 
-def side_table(results: Results) -> Table:
-    """Derivatives of the side of full models."""
-    names = [name for name in SIDE if any(name in entry.result["derivatives"] for entry in results.with_derivatives)]
+def plane_table(results: Results, name: str, caption: str, names: list[str]) -> Table:
+    """Some derivatives of every run that has them."""
     columns = ["Mach", "alpha, deg", *(word for name in names for word in (name, "±")), "run"]
     rows = [[*with_uncertainties(entry, names), entry.label] for entry in results.with_derivatives]
     formats = [".4g", ".4g", *[".3g", ".1g"] * len(names), ""]
     joined = set(range(3, 2 + 2 * len(names), 2))
-    caption = "Derivatives of the side, per rad; rates times length / 2V"
-    return Table("side", caption, columns, rows if names else [], formats, joined=joined, hidden={len(columns) - 1})
+    return Table(name, caption, columns, rows if names else [], formats, joined=joined, hidden={len(columns) - 1})
+
+
+def known(results: Results) -> list[str]:
+    """Derivatives that some run has."""
+    return in_order(name for entry in results.with_derivatives for name in entry.result["derivatives"] if name in KNOWN or by_control(name))
+
+
+def side_table(results: Results) -> Table:
+    """Derivatives of the side of full models."""
+    names = [name for name in SIDE if any(name in entry.result["derivatives"] for entry in results.with_derivatives)]
+    return plane_table(results, "side", "Derivatives of the side, per rad; rates times length / 2V", names)
+
+
+def is_zero(entry: dict) -> bool:
+    """Not told from zero by its uncertainty."""
+    return entry["uncertainty"] is not None and abs(entry["value"] or 0.0) <= entry["uncertainty"]
+
+
+def cross_tables(results: Results) -> tuple[Table, list[str]]:
+    """Loads out of the plane of symmetry by variables in it, and the reverse; and those that are zero in every run."""
+    names = [name for name in known(results) if group(name) == "cross"]
+    own = lambda name: [entry.result["derivatives"][name] for entry in results.with_derivatives if name in entry.result["derivatives"]]
+    zeros = [name for name in names if all(map(is_zero, own(name)))]
+    shown = [name for name in names if name not in zeros]
+    return plane_table(results, "cross", "Cross derivatives, per rad; rates times length / 2V", shown), zeros
+
+
+def control_table(results: Results) -> Table:
+    """Derivatives by controls, a row a control of a run; without loads that are zero in all of them."""
+    rows: list[list[Cell]] = []
+    used: set[str] = set()
+    for entry in results.with_derivatives:
+        found = entry.result["derivatives"]
+        for control in dict.fromkeys(filter(None, map(by_control, found))):
+            own = {name: found.get(f"{name}_{control}") for name in COEFFICIENTS}
+            used |= {name for name, load in own.items() if load and not is_zero(load)}
+            cells = [cell for load in own.values() for cell in ([load["value"], load["uncertainty"]] if load else [None, None])]
+            rows.append([control, entry.mach, entry.run.alpha, *cells, entry.label])
+    columns = ["control", "Mach", "alpha, deg", *(word for name in COEFFICIENTS for word in (name, "±")), "run"]
+    idle = {3 + 2 * index for index, name in enumerate(COEFFICIENTS) if name not in used}
+    joined = {4 + 2 * index for index in range(len(COEFFICIENTS))}
+    formats = ["", ".4g", ".4g", *[".4g", ".1g"] * len(COEFFICIENTS), ""]
+    caption = "Derivatives by deflections, per rad, and by their rates (dot)"
+    return Table("by_controls", caption, columns, sorted(rows, key=lambda row: row[0]), formats, joined=joined, hidden=idle | {len(columns) - 1})
 
 
 def force_table(results: Results) -> Table:

@@ -101,6 +101,26 @@ class Report(Workspace):
         self.assertIn("<td>4.083 ± 0.04</td>", text)
         self.assertIn("damped below", text)
 
+    def test_groups_of_derivatives(self) -> None:
+        """In the plane of symmetry, out of it, one by the other, by controls; what is zero within its ± is named once."""
+
+        def coupled(mach: float, alpha: float, beta: float) -> tuple[dict, dict]:
+            steady, derivatives = model(mach, alpha, beta)
+            return steady, derivatives | {"Cl_alpha": 0.5, "CN_beta": 0.0, "CN_tail_pitch": 3.0, "CY_tail_pitch": 0.0}
+
+        self.write("[[runs]]\nmach = [1.5, 2]\nalpha = 2\n", HEAD_ALONE)
+        finish(read_sweep(self.file).runs, coupled)
+        self.sweep("report")
+        text = (self.folder / "runs" / "report.html").read_text()
+        self.assertIn("Zero within their ± in every run: CN_beta.", text)
+        read = lambda name: list(csv.DictReader((self.folder / "runs" / "report" / name).read_text().splitlines()[1:]))
+        self.assertEqual([row["Cl_alpha"] for row in read("cross.csv")], ["0.5", "0.5"])
+        controls = [row for row in read("by_controls.csv") if row["control"] == "tail_pitch"]
+        self.assertEqual([(row["Mach"], row["CN"]) for row in controls], [("1.5", "3.0"), ("2.0", "3.0")])
+        part = text[text.index("Derivatives by deflections") :]
+        self.assertIn("<td>3 ± 0.03</td>", part)
+        self.assertNotIn("<th>CY</th>", part[: part.index("</table>")])
+
     def refers_to_nothing_outside(self, text: str) -> None:
         references = References()
         references.feed(text)
