@@ -160,8 +160,8 @@ std::vector<TableRow> AdjointDerivatives::rows(const Adjoints& adjoints,
     controls.insert(controls.end(), sets.begin(), sets.end());
     for (std::size_t i = 0; functional.rates == 0 && i < controls.size(); ++i) {
       Estimate sum;
-      for (const auto& [control, share] : terms_of(controls[i], settings))
-        sum += share * by_control(functional, adjoint, control);
+      for (const auto& [control, weight] : terms_of(controls[i], settings))
+        sum += weight * by_control(functional, adjoint, control);
       rows.push_back({derivative_name(functional, name(controls[i])), sum, "adjoint, k -> 0"});
     }
     for (std::size_t i = first; i < rows.size(); ++i)

@@ -22,7 +22,7 @@ std::vector<Variable> controls_of(const Case& settings) {
 
 std::vector<Variable> control_sets_of(const Case& settings) {
   std::vector<Variable> out;
-  for (const auto& [name, shares] : settings.control_sets) out.push_back(control_variable(name));
+  for (const auto& [name, weights] : settings.control_sets) out.push_back(control_variable(name));
   return out;
 }
 
@@ -40,9 +40,9 @@ Terms terms_of(Variable variable, const Case& settings) {
   const auto set = settings.control_sets.find(std::string(name(deflected)));
   if (!is_control(variable) || set == settings.control_sets.end()) return {{variable, 1}};
   Terms out;
-  for (const auto& [name, share] : set->second) {
+  for (const auto& [name, weight] : set->second) {
     const auto control = control_variable(name);
-    out.emplace_back(is_rate ? rate_of_control(control) : control, share);
+    out.emplace_back(is_rate ? rate_of_control(control) : control, weight);
   }
   return out;
 }

@@ -81,8 +81,8 @@ std::string distribution_csv(std::span<const Distribution> distributions, const 
                     csv_line(std::array<std::string, 6>{"of", "name", along + "_from", along + "_to",
                                                         "per_length", "running"});
   const auto digits = [](Real number) { return fmt::format("{:.9g}", number); };
-  for (const auto& [of, ends, shares] : distributions)
-    for (const auto& [name, values] : shares) {
+  for (const auto& [of, ends, quantities] : distributions)
+    for (const auto& [name, values] : quantities) {
       if (std::ranges::all_of(values, [](Real value) { return value == 0; })) continue;
       Real running = 0;
       for (std::size_t i = 0; i < values.size(); ++i) {

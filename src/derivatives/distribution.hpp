@@ -39,7 +39,7 @@ class Slices {
 struct Distribution {
   std::string of;          ///< "total", a component, or the control whose panel it is
   std::vector<Real> ends;  ///< [slices + 1]
-  std::vector<std::pair<std::string, std::vector<Real>>> shares;  ///< by the quantity's name, [slices]
+  std::vector<std::pair<std::string, std::vector<Real>>> quantities;  ///< by the quantity's name, [slices]
 };
 
 /// Comment lines with the head and `note`, a header and a line for each quantity and slice: its ends,

@@ -49,7 +49,7 @@ bool solve_all(FlowCase& flow, SensitivitySolver& solver, Responses& responses, 
     }
   }
   for (const auto variable : variables_of(flow.settings()))
-    for (const auto& [term, share] : terms_of(variable, flow.settings()))
+    for (const auto& [term, weight] : terms_of(variable, flow.settings()))
       if (unconverged.contains(term)) unconverged.insert(variable);
   return true;
 }
@@ -103,8 +103,8 @@ class Estimation {
     for (const auto variable : variables_of(flow_.settings())) {
       const auto& column = out.derivatives[variable] = column_of(variable, responses_, part, settings);
       for (int i = 0; i < column.size(); ++i) linear.half_width[variable][i] = column[i].uncertainty;
-      for (const auto& [term, share] : terms_of(variable, flow_.settings()))
-        steady.half_width[variable] += std::abs(share) * steady_half_width(term, part, settings);
+      for (const auto& [term, weight] : terms_of(variable, flow_.settings()))
+        steady.half_width[variable] += std::abs(weight) * steady_half_width(term, part, settings);
       if (has_limiter)
         limiter.half_width[variable] = change(column, column_of(variable, responses_, part, settings, true));
     }
@@ -120,11 +120,11 @@ class Estimation {
                                      const FlightCondition& settings, bool limiter_held = false) const {
     const Real scale = rate_scale(variable, settings);
     CoefficientsOf<Estimate> out;
-    for (const auto& [term, share] : terms_of(variable, flow_.settings())) {
+    for (const auto& [term, weight] : terms_of(variable, flow_.settings())) {
       const auto& solution = responses.at({term, limiter_held});
-      const auto values = coefficients(share * scale * part.of(solution.loads, solution.total), settings);
+      const auto values = coefficients(weight * scale * part.of(solution.loads, solution.total), settings);
       const auto errors =
-          coefficients(share * scale * part.of(solution.loads_error, solution.total_error), settings);
+          coefficients(weight * scale * part.of(solution.loads_error, solution.total_error), settings);
       for (int i = 0; i < out.size(); ++i) out[i] = out[i] + Estimate{values[i], std::abs(errors[i])};
     }
     return out;

@@ -14,10 +14,10 @@ namespace alphadot {
 
 namespace {
 
-/// to += share from
-void add(std::vector<Load>& to, Real share, std::span<const Load> from) {
+/// to += weight from
+void add(std::vector<Load>& to, Real weight, std::span<const Load> from) {
   to.resize(from.size());
-  for (std::size_t i = 0; i < from.size(); ++i) to[i] += share * from[i];
+  for (std::size_t i = 0; i < from.size(); ++i) to[i] += weight * from[i];
 }
 
 }  // namespace
@@ -36,7 +36,7 @@ LoadDistributions::LoadDistributions(FlowCase& flow, SensitivitySolver& solver, 
     }
   for (const auto& sets : {control_sets_of(flow.settings()), control_set_rates_of(flow.settings())})
     for (const Variable set : sets)
-      for (const auto& [term, share] : terms_of(set, flow.settings())) add(by_[set], share, by_.at(term));
+      for (const auto& [term, weight] : terms_of(set, flow.settings())) add(by_[set], weight, by_.at(term));
 }
 
 std::vector<Distribution> LoadDistributions::along_body() const {
@@ -46,11 +46,11 @@ std::vector<Distribution> LoadDistributions::along_body() const {
   const auto distribute = [&](const std::string& of, const std::vector<std::string>& walls) {
     const Slices slices(domain, numbers_of_patches(walls, domain.patch_names), {}, {1, 0, 0},
                         settings.output.stations, flow_.communicator());
-    auto& shares = out.emplace_back(Distribution{of, slices.ends(), {}}).shares;
+    auto& quantities = out.emplace_back(Distribution{of, slices.ends(), {}}).quantities;
     const auto add_all = [&](std::string_view by, std::span<const Load> faces) {
       const auto loads = slices.of(faces);
       for (int i = 0; i < Coefficients::size(); ++i) {
-        auto& [name, values] = shares.emplace_back(
+        auto& [name, values] = quantities.emplace_back(
             std::string(coefficient_names[static_cast<std::size_t>(i)]), std::vector<Real>{});
         if (!by.empty()) name.append("_").append(by);
         for (const auto& load : loads) values.push_back(coefficients(load, settings)[i]);
@@ -76,7 +76,7 @@ std::vector<Distribution> LoadDistributions::along_panels() const {
     if (norm(frame.outboard) == 0) continue;
     const Slices slices(domain, numbers_of_patches(control.patches, domain.patch_names), frame.point,
                         frame.outboard, flow_.settings().output.stations, flow_.communicator());
-    auto& shares = out.emplace_back(Distribution{control.name, slices.ends(), {}}).shares;
+    auto& quantities = out.emplace_back(Distribution{control.name, slices.ends(), {}}).quantities;
     const auto add_all = [&](std::string_view by, std::span<const Load> faces) {
       std::vector<std::pair<std::string, std::vector<Real>>> columns;
       columns.reserve(panel_load_names.size());
@@ -87,7 +87,7 @@ std::vector<Distribution> LoadDistributions::along_panels() const {
         const auto loads = panel_loads(coefficients(load, settings), frame, settings.reference);
         for (std::size_t i = 0; i < columns.size(); ++i) columns[i].second.push_back(loads[i]);
       }
-      shares.insert(shares.end(), columns.begin(), columns.end());
+      quantities.insert(quantities.end(), columns.begin(), columns.end());
     };
     add_all("", steady_);
     for (const auto& [variable, faces] : by_) add_all(name(variable), faces);

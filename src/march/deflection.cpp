@@ -189,7 +189,7 @@ Deflection deflection(const Discretization& discretization, std::span<const std:
   marks.exchange();
 
   const HingedBox box(domain, turns, hinge, comm);
-  const Real room = 0.5 * box.diagonal();
+  const Real reach = 0.5 * box.diagonal();
   const auto owned = static_cast<std::size_t>(domain.owned_points);
   std::vector<Vec3> kept_back(owned), turned(owned);
   std::vector<std::uint8_t> is_free(owned);
@@ -205,7 +205,7 @@ Deflection deflection(const Discretization& discretization, std::span<const std:
     });
     const Vec3 x = domain.points[at];
     const bool is_turning = here.turning > 0;
-    const Real share = is_turning ? 1 : blend(box.distance(x) / room);
+    const Real share = is_turning ? 1 : blend(box.distance(x) / reach);
     turned[at] = share * cross(hinge.axis, x - hinge.point);
     kept_back[at] = across(here.fixed, turned[at]);
     is_free[at] = !is_turning && trace(here.fixed) == 0;

@@ -24,8 +24,8 @@ std::vector<Real> follow_shares(const Discretization& discretization, const Vec3
   std::vector<Real> out(points.size());
   for (std::size_t point = 0; point < out.size(); ++point) out[point] = influence.distance(points[point]);
   const Real farthest = comm.max(out.empty() ? 0 : std::ranges::max(out));
-  const Real room = std::max(farthest, influence.body_size());
-  for (Real& share : out) share = blend((share / room - still_disturbed) / (1 - still_disturbed));
+  const Real reach = std::max(farthest, influence.body_size());
+  for (Real& share : out) share = blend((share / reach - still_disturbed) / (1 - still_disturbed));
   return out;
 }
 
