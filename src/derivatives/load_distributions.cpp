@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <span>
 #include <string>
 #include <utility>
 
@@ -27,13 +28,22 @@ LoadDistributions::LoadDistributions(FlowCase& flow, SensitivitySolver& solver, 
       steady_(face_loads(flow.discretization(),
                          excess_pressures(flow.discretization(), flow.iteration().residual()),
                          flow.iteration().moment_center())) {
-  for (const auto& group : groups_of(flow.settings()))
+  for (const auto& group : groups_of(flow.settings())) {
+    std::vector<ResponseProblem> asked;
+    std::vector<SensitivityProblem> problems;
+    std::vector<std::span<const Primitive<Real>>> solutions;
     for (const Variable variable : group) {
-      const auto [problem, held] = problem_of({variable}, flow, responses);
-      const Real scale = rate_scale(variable, flow.settings());
-      add(by_[variable], scale, solver.face_loads(problem, responses.at({variable}).field));
-      if (held) add(by_[variable], scale, held->of_faces);
+      asked.push_back(problem_of({variable}, flow, responses));
+      solutions.emplace_back(responses.at({variable}).field);
     }
+    for (const auto& one : asked) problems.push_back(one.problem);
+    const auto found = solver.face_loads(problems, solutions);
+    for (std::size_t i = 0; i < group.size(); ++i) {
+      const Real scale = rate_scale(group[i], flow.settings());
+      add(by_[group[i]], scale, found[i]);
+      if (asked[i].held) add(by_[group[i]], scale, asked[i].held->of_faces);
+    }
+  }
   for (const auto& sets : {control_sets_of(flow.settings()), control_set_rates_of(flow.settings())})
     for (const Variable set : sets)
       for (const auto& [term, weight] : terms_of(set, flow.settings())) add(by_[set], weight, by_.at(term));

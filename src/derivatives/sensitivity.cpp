@@ -89,13 +89,30 @@ SensitivitySolver::SensitivitySolver(ImplicitIteration& iteration, const Conditi
                                      const DerivativeSettings& settings, std::function<bool()> go_on)
     : basis_(iteration, conditions, settings, std::move(go_on)) {}
 
-std::vector<Load> SensitivitySolver::face_loads(const SensitivityProblem& problem,
-                                                std::span<const Primitive<Real>> solution) {
-  Tangent<1> tangent(basis_.linearisation, basis_.iteration.moment_center());
-  std::vector<Conserved<Real>> image(solution.size());
-  tangent.apply({solution}, {problem.change}, {image});
-  return alphadot::face_loads(basis_.iteration.discretization(), tangent.pressures()[0],
-                              basis_.iteration.moment_center());
+std::vector<std::vector<Load>> SensitivitySolver::face_loads(
+    const std::vector<SensitivityProblem>& problems,
+    const std::vector<std::span<const Primitive<Real>>>& solutions) {
+  const ImplicitIteration& iteration = basis_.iteration;
+  std::vector<std::vector<Load>> out;
+  const auto apply = [&]<int N>(std::span<const SensitivityProblem> group, std::integral_constant<int, N>) {
+    std::array<ConditionsChange, N> changes;
+    std::array<std::vector<Conserved<Real>>, N> values;
+    typename Tangent<N>::Fields fields;
+    typename Tangent<N>::Images images;
+    for (std::size_t k = 0; k < N; ++k) {
+      changes[k] = group[k].change;
+      fields[k] = solutions[out.size() + k];
+      values[k].resize(fields[k].size());
+      images[k] = values[k];
+    }
+    Tangent<N> tangent(basis_.linearisation, iteration.moment_center());
+    tangent.apply(fields, changes, images);
+    for (const auto& pressures : tangent.pressures())
+      out.push_back(alphadot::face_loads(iteration.discretization(), pressures, iteration.moment_center()));
+    return true;
+  };
+  in_groups(std::span(problems), apply);
+  return out;
 }
 
 std::vector<Sensitivity> SensitivitySolver::solve(const std::vector<SensitivityProblem>& problems) {

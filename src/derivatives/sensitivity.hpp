@@ -63,9 +63,10 @@ class SensitivitySolver {
   /// unstable cell. Collective.
   std::vector<Sensitivity> solve(const std::vector<SensitivityProblem>& problems);
 
-  /// [boundary_faces] change of the loads of faces with a solution of `problem`, but for what they change by
-  /// while the flow is held. Collective.
-  std::vector<Load> face_loads(const SensitivityProblem& problem, std::span<const Primitive<Real>> solution);
+  /// [problems][boundary_faces] change of the loads of faces with the solutions of some problems, but for
+  /// what they change by while the flow is held. Collective.
+  std::vector<std::vector<Load>> face_loads(const std::vector<SensitivityProblem>& problems,
+                                            const std::vector<std::span<const Primitive<Real>>>& solutions);
 
  private:
   DerivativeBasis basis_;
