@@ -30,7 +30,8 @@ sys.path.insert(0, str(ROOT / "scripts"))
 from sweep.figures import COLORS, STYLE
 from sweep.text import aligned
 
-FAMILIES = ((0.5, 0.77), (0.93,), (1.08, 1.11), (1.29,), (1.5, 2.0, 2.5), (3.0, 3.5, 4.0, 4.5))  # Mach numbers of one family of meshes
+# Mach numbers of one family of meshes.
+FAMILIES = ((1.5, 2.0, 2.5), (3.0, 3.5, 4.0, 4.5), (1.29,), (1.08, 1.11), (0.93,), (0.5, 0.77))
 
 
 def parse() -> argparse.Namespace:
@@ -72,14 +73,14 @@ def main() -> int:
     flights = [row for row in reference("finner_free_flight_DREV_TM_9703.csv") if row["flag"] == "ok" and row["table"] == "VIII"]
     rows = [("Mach", "Cm_q", "Cm_alphadot", "sum", "", "RANS, pitching", "off", "RANS, coning")]
     sums, widths = {}, {}
-    for machs in FAMILIES:
-        for mach, found in family(arguments, machs).items():
-            q, alphadot = found["Cm_q"], found["Cm_alphadot"]
-            sums[mach] = q["value"] + alphadot["value"]
-            widths[mach] = math.hypot(q["uncertainty"], alphadot["uncertainty"])
-            pitching = rans["planar_pitching"][mach]
-            rows.append((f"{mach:.2f}", f"{q['value']:.1f}", f"{alphadot['value']:.1f}", f"{sums[mach]:.1f}", f"± {widths[mach]:.1f}",
-                         f"{pitching:.1f}", f"{100 * (sums[mach] / pitching - 1):+.1f} %", f"{rans['lunar_coning'][mach]:.1f}"))  # fmt: skip
+    found = {mach: values for machs in FAMILIES for mach, values in family(arguments, machs).items()}
+    for mach, values in sorted(found.items()):
+        q, alphadot = values["Cm_q"], values["Cm_alphadot"]
+        sums[mach] = q["value"] + alphadot["value"]
+        widths[mach] = math.hypot(q["uncertainty"], alphadot["uncertainty"])
+        pitching = rans["planar_pitching"][mach]
+        rows.append((f"{mach:.2f}", f"{q['value']:.1f}", f"{alphadot['value']:.1f}", f"{sums[mach]:.1f}", f"± {widths[mach]:.1f}",
+                     f"{pitching:.1f}", f"{100 * (sums[mach] / pitching - 1):+.1f} %", f"{rans['lunar_coning'][mach]:.1f}"))  # fmt: skip
     print(aligned(rows))
     with plt.rc_context(STYLE):
         figure, axes = plt.subplots(figsize=(7.2, 4.6), layout="constrained")
