@@ -33,6 +33,9 @@ Json json_of(const Result& r) {
   if (!r.panels.empty()) forces["panels"] = Json::object();
   for (const auto& [name, loads] : r.panels) forces["panels"][name] = json_of(loads);
   forces["excluded"] = r.excluded;
+  Json estimates = Json::object();
+  for (const auto& [name, estimate] : r.estimates)
+    estimates[name] = {{"CA", estimate.CA}, {"source", estimate.source}};
 
   Json derivatives = Json::object();
   for (const auto& [name, d] : r.derivatives) {
@@ -68,6 +71,7 @@ Json json_of(const Result& r) {
         {"beta", r.freestream.beta},
         {"gamma", r.freestream.gamma}}},
       {"forces", forces},
+      {"estimates", estimates},
       {"derivatives", derivatives},
       {"uncertainty", r.uncertainty},
       {"longitudinal", json_of(r.longitudinal)},

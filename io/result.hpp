@@ -67,6 +67,12 @@ struct ConfigurationResult {
   std::vector<std::string> warnings;                             ///< what is improbable about it
 };
 
+/// A part of CA that is no result of the flow.
+struct EstimateResult {
+  Real CA = 0;
+  std::string source;
+};
+
 struct Result {
   RunStatus status = RunStatus::error;
   std::string message;                   ///< why it ended so; may be empty
@@ -82,11 +88,12 @@ struct Result {
   std::string rate = "times length / (2 V)";  ///< how rates are made dimensionless
   /// Of forces and moments.
   std::string axes = "mesh axes x aft, y starboard, z up; Cl Cm Cn about x forward, y starboard, z down";
-  NamedValues forces;                             ///< CA CY CN Cl Cm Cn of the whole configuration
-  std::map<std::string, NamedValues> components;  ///< the same of walls and sets of walls
-  std::map<std::string, NamedValues> one_side;    ///< of a half model: the same without the mirror image
-  std::map<std::string, NamedValues> panels;      ///< of controls: loads in the panel's own frame
-  std::vector<std::string> excluded;              ///< patches left out of the forces (sting, jet)
+  NamedValues forces;                               ///< CA CY CN Cl Cm Cn of the whole configuration
+  std::map<std::string, NamedValues> components;    ///< the same of walls and sets of walls
+  std::map<std::string, NamedValues> one_side;      ///< of a half model: the same without the mirror image
+  std::map<std::string, NamedValues> panels;        ///< of controls: loads in the panel's own frame
+  std::vector<std::string> excluded;                ///< patches left out of the forces (sting, jet)
+  std::map<std::string, EstimateResult> estimates;  ///< by name: of CA, beside the forces
   std::map<std::string, DerivativeResult> derivatives;  ///< by name, "Cm_alphadot"; per radian
   std::string uncertainty;   ///< what those of the derivatives hold; empty: there are none
   NamedValues longitudinal;  ///< static margin, neutral point, limits of quasi-steady flight; may be empty

@@ -15,6 +15,7 @@
 #include "core/csv.hpp"
 #include "core/log.hpp"
 #include "core/memory.hpp"
+#include "derivatives/axial_estimates.hpp"
 #include "derivatives/loads.hpp"
 #include "derivatives/panel_table.hpp"
 #include "derivatives/part.hpp"
@@ -171,6 +172,8 @@ Result RunRecord::result(RunStatus end, std::span<const TableRow> derivatives) c
   if (!loads.empty())
     out.panels = steady_panel_loads(flow_.settings(), flow_.settings().controls, loads, patches);
   out.excluded = excluded_patches(flow_.setup());
+  for (const auto& one : axial_estimates(flow_.setup().configuration, patches, flow_.settings()))
+    out.estimates[one.name] = {one.CA, one.source};
   for (const auto& row : derivatives)
     out.derivatives[row.name] = {row.value.value, row.value.uncertainty, row.method, row.converged,
                                  row.parts};
@@ -211,6 +214,9 @@ void RunRecord::print(const Result& result, std::span<const TableRow> derivative
     print_out(derivative_table(derivatives, table_head(result.status, derivatives)) + "\n");
   print_out(fmt::format("Steady: CA {:.6f}  CN {:+.6f}  Cm {:+.6f} about x = {:g}\n", loads.CA, loads.CN,
                         loads.Cm, flow_.settings().reference.moment_center.x));
+  for (const auto& [name, estimate] : result.estimates)
+    print_out(
+        fmt::format("Not in it: CA of the {} {:+.6f}, estimated ({})\n", name, estimate.CA, estimate.source));
   const auto& p = result.performance;
   spdlog::info(
       "{} wall, {:.1f} s of processor, {} iterations, {:.3f} us of core time per cell and iteration, "

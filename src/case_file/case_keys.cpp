@@ -270,6 +270,13 @@ std::vector<CaseKey> make_keys() {
       .key("coarser_meshes", &DerivativeSettings::coarser_meshes, TextsValue{.most = 2},
            "the same flow on these meshes too, the finer first, for the part of the mesh in the uncertainty");
 
+  Table(keys, "estimates", &Case::estimates)
+      .key("reynolds", &EstimateSettings::reynolds, NumberValue{.from = 0, .to = 1e12},
+           "of the free stream and the reference length, for friction beside the forces; 0: no friction")
+      .key("transition", &EstimateSettings::transition, NumberValue{.from = 0, .to = 1e12},
+           "Reynolds number along each component at which its boundary layer becomes turbulent; 0: from the "
+           "start");
+
   Table(keys, "output", &Case::output)
       .key("folder", &OutputSettings::folder, TextValue{}, "folder of the run")
       .default_is("runs/<name of the case file>")

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "analysis/axial_force.hpp"
 #include "core/words.hpp"
 #include "derivatives/settings.hpp"
 #include "march/settings.hpp"
@@ -90,6 +91,7 @@ struct Case : FlightCondition {
   SteadySettings steady;
   UnsteadySettings unsteady;
   DerivativeSettings derivatives;
+  EstimateSettings estimates;
   OutputSettings output;
   CheckpointSettings checkpoint;
 };

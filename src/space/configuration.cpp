@@ -101,11 +101,16 @@ class Surveyor {
     const Real aft = std::cos(Configuration::aft_angle * radians_per_degree);
     const Real center = settings_.reference.moment_center.z;
     Box box = empty_box();
-    // faces, area, area towards +x +y +z, towards -x -y -z, area times z and |z|, z and |z|, then aft by
-    // patch
-    std::vector<Real> sums(12 + patches, 0);
+    // faces, area, area towards +x +y +z, towards -x -y -z, area times z and |z|, z and |z|, then by patch
+    // what looks aft and all
+    std::vector<Real> sums(12 + 2 * patches, 0), first(patches, infinite), last(patches, infinite);
     for_each_face(BoundaryKind::wall, [&](std::size_t face) {
-      for (const Vec3& corner : corners(face)) extend(box, corner);
+      const auto patch = static_cast<std::size_t>(domain_.boundary_faces[face].patch);
+      for (const Vec3& corner : corners(face)) {
+        extend(box, corner);
+        first[patch] = std::min(first[patch], corner.x);
+        last[patch] = std::min(last[patch], -corner.x);
+      }
       const Vec3 out_of_body = -domain_.boundary_normal[face];
       const Real area = norm(out_of_body), z = domain_.boundary_center[face].z - center;
       sums[0] += 1;
@@ -118,10 +123,13 @@ class Surveyor {
       sums[9] += area * std::abs(z);
       sums[10] += z;
       sums[11] += std::abs(z);
-      if (out_of_body.x > aft * area)
-        sums[12 + static_cast<std::size_t>(domain_.boundary_faces[face].patch)] += area;
+      if (out_of_body.x > aft * area) sums[12 + patch] += area;
+      sums[12 + patches + patch] += area;
     });
     comm_.sum(std::span<Real>(sums));
+    comm_.min(std::span<Real>(first));
+    comm_.min(std::span<Real>(last));
+    out_.walls.resize(patches);
     out_.aft_area.assign(patches, 0);
     out_.has_body = sums[0] > 0;
     if (!out_.has_body) return;
@@ -137,6 +145,9 @@ class Surveyor {
       out_.net_area[d] = d == 1 && mirror == 2 ? 0 : mirror * (positive - negative);
     }
     for (std::size_t patch = 0; patch < patches; ++patch) out_.aft_area[patch] = mirror * sums[12 + patch];
+    for (std::size_t patch = 0; patch < patches; ++patch)
+      if (const Real area = sums[12 + patches + patch]; area > 0)
+        out_.walls[patch] = {mirror * area, first[patch], -last[patch]};
     out_.surface_asymmetry = share(sums[8], sums[9]);
     out_.triangle_asymmetry = share(sums[10], sums[11]);
     if (mirror == 2) {
@@ -149,14 +160,16 @@ class Surveyor {
 
   void look_at_jets() {
     const std::size_t patches = domain_.patch_names.size();
-    std::vector<Real> sums(2 * patches, 0);  // what looks ahead and all, by patch
+    std::vector<Real> sums(2 * patches + 1, 0);  // what looks ahead and all, by patch; what shows aft
     for_each_face(BoundaryKind::jet, [&](std::size_t face) {
       const Vec3 out_of_body = -domain_.boundary_normal[face];
       const auto patch = static_cast<std::size_t>(domain_.boundary_faces[face].patch);
       if (out_of_body.x < 0) sums[patch] += norm(out_of_body);
       sums[patches + patch] += norm(out_of_body);
+      sums[2 * patches] += std::max(out_of_body.x, 0.0);
     });
     comm_.sum(std::span<Real>(sums));
+    out_.base_area = (settings_.reference.half_model ? 2 : 1) * sums[2 * patches];
     for (std::size_t patch = 0; patch < patches; ++patch)
       out_.fore_share.push_back(share(sums[patch], sums[patches + patch]));
   }
@@ -379,6 +392,8 @@ class Surveyor {
     out_.projected_area = area * out_.projected_area;
     out_.net_area = area * out_.net_area;
     for (Real& aft : out_.aft_area) aft *= area;
+    for (auto& wall : out_.walls) wall = {area * wall.area, length * wall.first, length * wall.last};
+    out_.base_area *= area;
   }
 
   const Subdomain& domain_;

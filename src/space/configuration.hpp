@@ -35,6 +35,12 @@ struct RegionFacts {
   std::vector<Index> patches;  ///< ascending
 };
 
+/// Walls of one patch.
+struct WettedWall {
+  Real area = 0;             ///< none where the patch is no wall
+  Real first = 0, last = 0;  ///< x between which it lies
+};
+
 /// Facts about a mesh and the case that names its patches. Lengths are in reference lengths and areas in
 /// reference areas, both of the whole configuration: a half model's are completed by its mirror image.
 /// Coordinates of regions, planes and cells are those of the subdomain. All are the same at any number of
@@ -47,10 +53,12 @@ struct Configuration {
   Box body;               ///< around all walls
   Real body_length = 0;   ///< the longest side of that box
   Real wall_area = 0;
-  Vec3 projected_area;           ///< of the walls along x, y, z; parts behind each other count each
-  Vec3 net_area;                 ///< sum of the walls' area vectors out of the body: zero when they close it
-  std::vector<Real> aft_area;    ///< [patches] of wall faces within `aft_angle` of looking aft
-  std::vector<Real> fore_share;  ///< [patches] of a jet's area, what looks ahead
+  Vec3 projected_area;            ///< of the walls along x, y, z; parts behind each other count each
+  Vec3 net_area;                  ///< sum of the walls' area vectors out of the body: zero when they close it
+  std::vector<Real> aft_area;     ///< [patches] of wall faces within `aft_angle` of looking aft
+  std::vector<WettedWall> walls;  ///< [patches]
+  Real base_area = 0;             ///< of jets, what they show to the stream from behind
+  std::vector<Real> fore_share;   ///< [patches] of a jet's area, what looks ahead
   /// How unlike the walls' lower half (z below the moment centre) is to the upper one, from 0 for mirror
   /// images to 1: of the surface, of its triangles, and of the cells all around.
   Real surface_asymmetry = 0, triangle_asymmetry = 0, cell_asymmetry = 0;

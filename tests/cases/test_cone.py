@@ -34,12 +34,17 @@ class Steady(ExactCase):
     def test_surface_pressure_and_shock(self) -> None:
         for mach in (1.58, 2.5):
             with tempfile.TemporaryDirectory() as folder:
-                settings = {"freestream.mach": mach, "steady.orders": 6}
-                run(Path(folder), "run", "sharp_cone/derivatives.toml", "cone_medium.msh", settings)
+                settings = {"freestream.mach": mach, "steady.orders": 6, "estimates.reynolds": 1e6}
+                estimates = run(Path(folder), "run", "sharp_cone/derivatives.toml", "cone_medium.msh", settings)["estimates"]
                 found, _ = compare.computed(Path(folder))
             exact = compare.exact(mach)
             self.assert_close(f"Cp at Mach {mach}", found.cp, exact.cp, 0.005)
             self.assert_close(f"shock at Mach {mach}", found.shock, exact.shock, 0.5, of=1.0)
+            # Fleeman's 0.25 / M on the base, which is the reference area; the cone's side is 1 / sin(10 deg) as large and one length long.
+            self.assert_close(f"base at Mach {mach}", estimates["base"]["CA"], 0.25 / mach, 0.003)
+            # Van Driest's coefficients at Mach 1 and 3, Reynolds number 1e6: 0.00413 and 0.00298 (solved by bisection elsewhere).
+            coefficient = estimates["friction"]["CA"] * math.sin(math.radians(10.0))
+            self.assert_close(f"friction at Mach {mach}", coefficient, 0.00413 - 0.00115 * (mach - 1.0) / 2.0, 0.03)
 
     def test_flow_that_the_shock_is_measured_with(self) -> None:
         # From the exact surface pressure to the exact pressure behind the shock, but for the loss of total pressure.
