@@ -20,21 +20,38 @@ constexpr const char* fluent_remedy =
     "export the mesh from Fluent or its mesher as CGNS and convert it: alphadot-cgns2su2 FILE.cgns mesh.su2";
 constexpr const char* openfoam_remedy =
     "write the mesh with the program that made it as Gmsh, SU2, UGRID or CGNS file; polyhedra cannot be used";
+constexpr const char* with_groups = "gmsh FILE -save -format msh41 -o mesh.msh converts it, groups included";
+constexpr const char* through_gmsh =
+    "gmsh FILE -save -format msh41 -o mesh.msh converts it; groups lose their names: patches become "
+    "surface_1, "
+    "surface_2 ...";
+constexpr const char* surface_only = "mesh the volume around it first, with Gmsh for example";
+constexpr const char* from_its_program =
+    "write the mesh with the program that made it as Gmsh, SU2, UGRID or CGNS file";
 
 /// In lower case, as what they are compared with.
-constexpr std::array<Foreign, 14> beginnings{
+constexpr std::array<Foreign, 23> beginnings{
     {{"\xff\xfe", "the file is text in UTF-16", "save it as ASCII or UTF-8"},
      {"\xfe\xff", "the file is text in UTF-16", "save it as ASCII or UTF-8"},
      {"version https://git-lfs.github.com/spec/", "the file is a Git LFS pointer, not the mesh itself",
       "get the mesh with git lfs pull"},
-     {"(", "the file is a mesh or case of Fluent, which is not read", fluent_remedy},
+     {"(0", "the file is a mesh or case of Fluent, which is not read", fluent_remedy},
+     {"(1", "the file is a mesh or case of Fluent, which is not read", fluent_remedy},
+     {"(2", "the file is a mesh or case of Fluent, which is not read", fluent_remedy},
+     {"(4", "the file is a mesh or case of Fluent, which is not read", fluent_remedy},
      {"foamfile", "the file is of OpenFOAM, whose polyMesh is not read", openfoam_remedy},
      {"/*---", "the file is of OpenFOAM, whose polyMesh is not read", openfoam_remedy},
      {"<!doctype", "the file is a web page, not a mesh", "load the file itself"},
      {"<html", "the file is a web page, not a mesh", "load the file itself"},
      {"<?xml", "the file is of XML, not a mesh that can be read", "convert it with a mesh generator"},
-     {"<vtkfile", "the file is of VTK, which is not read", "convert it with meshio to .su2 or .msh"},
-     {"# vtk", "the file is of VTK, which is not read", "gmsh FILE.vtk -save -o mesh.msh converts it"},
+     {"<vtkfile", "the file is of VTK, which is not read", from_its_program},
+     {"# vtk", "the file is of VTK, which is not read", from_its_program},
+     {"solid ", "the file is STL, a surface without a volume", surface_only},
+     {"ply\n", "the file is PLY, a surface without a volume", surface_only},
+     {"ply\r", "the file is PLY, a surface without a volume", surface_only},
+     {"bulk data", "the file is of Nastran, which is not read", through_gmsh},
+     {"begin bulk", "the file is of Nastran, which is not read", through_gmsh},
+     {"$ ", "the file begins with a comment of Nastran, which is not read", through_gmsh},
      {"pk\x03\x04", "the file is a zip archive", "unzip it"},
      {"bzh", "the file is compressed by bzip2",
       "bunzip2 it; of compressed files only those of gzip are read"},
@@ -47,10 +64,6 @@ struct ForeignName {
   const char* what;
   const char* remedy;
 };
-constexpr const char* through_gmsh = "gmsh FILE -save -format msh41 -o mesh.msh converts it, groups included";
-constexpr const char* surface_only = "mesh the volume around it first, with Gmsh for example";
-constexpr const char* from_its_program =
-    "write the mesh with the program that made it as Gmsh, SU2, UGRID or CGNS file";
 constexpr const char* unpack = "unpack it; of compressed files only those of gzip are read";
 
 constexpr std::array<ForeignName, 47> names{
@@ -59,14 +72,14 @@ constexpr std::array<ForeignName, 47> names{
      {".cas.h5", "cases of Fluent are not read", fluent_remedy},
      {".msh.h5", "meshes of Fluent are not read", fluent_remedy},
      {".foam", "OpenFOAM's polyMesh is not read", openfoam_remedy},
-     {".unv", "I-deas files are not read", through_gmsh},
+     {".unv", "I-deas files are not read", with_groups},
      {".med", "MED files are not read", through_gmsh},
      {".bdf", "Nastran files are not read", through_gmsh},
      {".nas", "Nastran files are not read", through_gmsh},
      {".mesh", "Medit files are not read", through_gmsh},
      {".meshb", "Medit files are not read", through_gmsh},
-     {".vtk", "VTK files are not read", through_gmsh},
-     {".vtu", "VTK files are not read", "convert it with meshio to .su2 or .msh"},
+     {".vtk", "VTK files are not read", from_its_program},
+     {".vtu", "VTK files are not read", from_its_program},
      {".p3d", "Plot3D files are not read", from_its_program},
      {".xyz", "Plot3D files are not read", from_its_program},
      {".neu", "Gambit's neutral files are not read", from_its_program},

@@ -55,6 +55,7 @@ struct State {
   TagIndex nodes;                      ///< node tag to point
   std::vector<GroupName> names;        ///< of physical groups, sorted
   std::vector<Membership> groups;      ///< physical groups of surfaces and volumes, sorted; from 4.0 on
+  std::set<int> parts;                 ///< partitions that the file has volumes of
   std::vector<int> interfaces;         ///< surfaces between the partitions of a file, sorted: no boundaries
   std::set<std::string, std::less<>>
       made_names;  ///< patch names made here of the tags of groups and surfaces

@@ -1,6 +1,9 @@
 // The sections of Gmsh's formats 4.0 and 4.1: elements come in blocks of one geometric entity, and entities
 // tell their physical groups.
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <iterator>
 
 #include "io/gmsh_reader_state.hpp"
 
@@ -22,7 +25,8 @@ void read_entity(State& state, int dimension, bool partitioned) {
     parent_dimension = in.read_int("the dimension of a parent");
     in.read_int("the tag of a parent");
     const GlobalIndex parts = in.read_long_count("the number of partitions of an entity", {.ints = 1});
-    for (GlobalIndex i = 0; i < parts; ++i) in.read_int("a partition");
+    for (GlobalIndex i = 0; i < parts; ++i)
+      if (const int part = in.read_int("a partition"); dimension == 3) state.parts.insert(part);
   }
   // A point has its place here from 4.1 on, others their bounding box, which is beyond all numbers when they
   // are empty.
@@ -161,13 +165,16 @@ void read_partitioned_entities_v4(State& state) {
   Scanner& in = state.in;
   in.read_line();
   in.set_encoding(state.encoding);
-  in.read_long("the number of partitions");
+  const GlobalIndex parts = in.read_long("the number of partitions");
   const GlobalIndex ghosts = in.read_long_count("the number of ghost entities", {.ints = 2});
   for (GlobalIndex i = 0; i < ghosts; ++i) {
     in.read_int("a ghost entity");
     in.read_int("the partition of a ghost entity");
   }
   read_entities(state, true);
+  if (std::ssize(state.parts) < parts)
+    in.fail(fmt::format("the file holds {} of {} partitions of a mesh", state.parts.size(), parts),
+            "save the mesh in one file: set Mesh.PartitionSplitMeshFiles to 0, or merge the files in Gmsh");
 }
 
 void read_nodes_v4(State& state) {

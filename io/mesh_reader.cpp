@@ -60,8 +60,6 @@ void check_beginning(const std::string& path, std::string_view content, const st
   const bool binary =
       std::any_of(beginning.begin(), beginning.end(), [](char c) { return c >= 0 && c < '\t'; });
   if (name.ends_with(".su2") && binary) fail_unknown(path, "the file is binary, so it is no SU2 mesh");
-  if (form && form->encoding == Encoding::text && binary)
-    fail_unknown(path, "the file is binary, and .ugrid alone is for text: give it .b8.ugrid or .lb8.ugrid");
 }
 
 /// Lines of old Macintosh programs end with a carriage return alone.

@@ -183,6 +183,10 @@ Shape Su2Reader::read_shape(std::span<const ElementType> known, const char* reme
   const int number = in_.read_int("an element type");
   for (const ElementType& type : known)
     if (type.number == number) return type.shape;
+  constexpr int first_curved = 21, last_curved = 37;  // VTK's, as Gmsh writes them into such files
+  if (number >= first_curved && number <= last_curved)
+    in_.fail("elements of second order, type " + std::to_string(number) + ", which SU2 does not have",
+             "write the mesh with elements of first order, in Gmsh by Mesh.ElementOrder = 1");
   in_.fail("elements of SU2's type " + std::to_string(number) + " cannot stand here", remedy);
 }
 

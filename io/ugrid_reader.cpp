@@ -56,13 +56,16 @@ class Beginning {
                                                                    : 8;
     const bool positive = std::all_of(counts.begin(), counts.end(), [](GlobalIndex n) { return n >= 0; });
     const GlobalIndex bytes = 3 * real_bytes * header_.points + int_bytes * header_.ints();
-    fits_ = positive && begin_ == end_ && has_records == form.fortran_records &&
-            bytes <= static_cast<GlobalIndex>(in.remaining()) + 1;
+    const auto left = static_cast<GlobalIndex>(in.remaining());
+    fits_ = positive && begin_ == end_ && has_records == form.fortran_records && bytes <= left + 1;
+    fills_ = fits_ && bytes + (form.fortran_records ? 4 : 0) == left;
   }
 
   const Header& header() const { return header_; }
   /// Whether the rest of the file can hold what the header announces.
   bool fits() const { return fits_; }
+  /// Whether what it announces, in binary, is all that follows.
+  bool fills() const { return fills_; }
 
  private:
   /// Whether the length of the header's record stands before and behind it.
@@ -76,7 +79,7 @@ class Beginning {
 
   Header header_;
   std::int32_t begin_ = 0, end_ = 0;
-  bool fits_;
+  bool fits_, fills_;
 };
 
 struct KnownForm {
@@ -93,21 +96,51 @@ constexpr std::array<KnownForm, 9> known_forms{{{".b8.ugrid", {Encoding::big_end
                                                 {".lr4.ugrid", {Encoding::little_endian, true, true}},
                                                 {".ugrid", {Encoding::text, false, false}}}};
 
+constexpr std::size_t most_of_beginning = 40;  // bytes of a binary header and of the lengths of records
+
+/// The binary form in which the numbers that a header announces fill the file; or else one in which it can
+/// hold them, of the precision asked for, for a file that is cut could hold them in single precision.
+const KnownForm* binary_form_of(std::string_view content, const std::string& file, bool single_reals,
+                                bool& fills) {
+  const KnownForm* out = nullptr;
+  fills = false;
+  for (const KnownForm& known : known_forms) {
+    if (known.form.encoding == Encoding::text || content.size() < most_of_beginning) continue;
+    Scanner in(content, file);
+    const Beginning beginning(in, known.form);
+    fills = beginning.fills();
+    if (fills) return &known;
+    if (beginning.fits() && known.form.single_reals == single_reals && out == nullptr) out = &known;
+  }
+  return out;
+}
+
+[[noreturn]] void fail_as(const KnownForm& known, const Scanner& in) {
+  const auto& [encoding, single_reals, fortran_records] = known.form;
+  in.fail_at(0,
+             std::string("the numbers are in ") + (encoding == Encoding::little_endian ? "little" : "big") +
+                 "-endian order, coordinates of " + (single_reals ? "single" : "double") + " precision" +
+                 (fortran_records ? ", in Fortran's records" : ""),
+             "give the file the extension " + std::string(known.extension));
+}
+
 /// Reads the header; where it cannot be, tells the form in which it could.
 Header read_beginning(Scanner& in, const UgridForm& form, std::string_view content) {
-  const Beginning beginning(in, form);
-  if (beginning.fits()) return beginning.header();
-  for (const auto& [extension, other] : known_forms) {
-    if (other.encoding == Encoding::text || other.single_reals != form.single_reals || content.size() < 40)
-      continue;
-    Scanner again(content, in.file());
-    if (!Beginning(again, other).fits()) continue;
-    const bool little = other.encoding == Encoding::little_endian;
-    in.fail_at(0,
-               std::string("the numbers are in ") + (little ? "little" : "big") + "-endian order" +
-                   (other.fortran_records ? ", in Fortran's records" : ""),
-               "give the file the extension " + std::string(extension));
+  const std::string_view start = content.substr(0, most_of_beginning);
+  const bool is_text = form.encoding == Encoding::text;
+  bool fills = false;
+  const KnownForm* const known = binary_form_of(content, in.file(), form.single_reals, fills);
+  if (is_text && start.find('\0') != std::string_view::npos) {
+    if (known) fail_as(*known, in);
+    in.fail_at(0, "the file is binary, and .ugrid alone is for text",
+               "give it the extension of its form, .b8.ugrid or .lb8.ugrid for example");
   }
+  if (!is_text && !start.empty() &&
+      start.find_first_not_of("0123456789+-.eE \t\r\n") == std::string_view::npos)
+    in.fail_at(0, "the numbers are written as text", "give the file the extension .ugrid");
+  const Beginning beginning(in, form);
+  if (!is_text && known && known->form != form && (fills || !beginning.fits())) fail_as(*known, in);
+  if (beginning.fits()) return beginning.header();
   in.fail_at(0, "the header announces more than the " + std::to_string(content.size()) + " bytes of the file",
              damaged);
 }

@@ -127,6 +127,7 @@ class Validator {
   void check_faces() {
     const auto cell_sides = static_cast<Index>(4 * mesh_.cells.size());
     Tally crowded, overlapping, twice_covered, covered_inside, loose;
+    std::string_view also_covering;  // patch of the other triangle of the first such case
     std::vector<Index> bare;
     DisjointSets joined(mesh_.cells.size());      // through faces that no triangle covers
     std::vector<std::pair<Index, Index>> beside;  // cells on either side of inner triangles
@@ -144,9 +145,13 @@ class Validator {
               metrics(sides[1] / 4).volume > 0)
             overlapping.add(cell);
           if (cells == 1 && triangles == 0) bare.push_back(sides.front() / 4);
-          if (cells == 1 && triangles > 1) twice_covered.add(triangle);
+          if (cells > 0 && triangles > 1) {
+            if (twice_covered.count == 0)
+              also_covering = place_of(sides[sides.size() - 2] - cell_sides).first->name;
+            twice_covered.add(triangle);
+          }
           if (cells == 2 && triangles == 0) joined.join(sides[0] / 4, sides[1] / 4);
-          if (cells > 1 && triangles > 0) {
+          if (cells > 1 && triangles == 1) {
             covered_inside.add(triangle);
             beside.emplace_back(sides[0] / 4, sides[1] / 4);
           }
@@ -157,8 +162,10 @@ class Validator {
                  "remove duplicate or overlapping cells");
     report_cells(overlapping, "lies on the same side of a face as its neighbour", "remove overlapping cells");
     report_bare(bare, parts, joined);
-    report_triangles(twice_covered, "covers a face that another triangle covers too",
-                     "put each surface in one patch only");
+    report_triangles(
+        twice_covered, fmt::format("covers a face that a triangle of patch \"{}\" covers too", also_covering),
+        "put each surface in one patch only, and once; of a body that has no thickness mesh.thin "
+        "makes both sides");
     report_inner_surface(covered_inside, parts);
     report_triangles(loose, "is not a face of any cell",
                      "leave surfaces without a volume next to them out of the patches");
@@ -240,7 +247,9 @@ class Validator {
     const auto inside = std::ranges::find_if(parts, &Part::is_inside);
     std::string remedy;
     if (inside == parts.end()) {
-      remedy = "leave the one that is not the flow out of the mesh";
+      remedy =
+          "leave the one that is not the flow out of the mesh, or, where both are, end the surface before it "
+          "parts them";
     } else {
       // A person who takes out one body should not have to come again for the next.
       constexpr std::ptrdiff_t most = 5;

@@ -7,6 +7,7 @@
 #include <array>
 #include <cstddef>
 #include <optional>
+#include <set>
 
 #include "core/error.hpp"
 #include "partition/adjacency.hpp"
@@ -98,7 +99,8 @@ class Surroundings {
                                    touching_.push_back({places[sides[1] - cell_sides], sides[0] / 4});
                                  } else if (sides.size() > 2 && has_two_cells && sides[2] >= cell_sides) {
                                    const Place& place = places[sides[2] - cell_sides];
-                                   has_inner_[place.patch] = true;
+                                   for (const Index side : sides.subspan(2))
+                                     has_inner_[places[side - cell_sides].patch] = true;
                                    if (sides.size() == 3 && is_thin[place.patch])
                                      walls_.push_back({place, {sides[0], sides[1]}});
                                    else
@@ -252,6 +254,19 @@ std::vector<bool> find_patches(const Mesh& mesh, std::span<const std::string> na
   return is_thin;
 }
 
+/// Takes out triangles of a patch that stand in it before, as where a file lists a surface from both sides.
+/// Returns how many.
+std::size_t drop_repeated(Patch& patch) {
+  using Triangle = std::array<GlobalIndex, 3>;
+  const auto sorted = [](Triangle triangle) {
+    std::ranges::sort(triangle);
+    return triangle;
+  };
+  std::set<Triangle> seen;
+  return std::erase_if(patch.triangles,
+                       [&](const Triangle& triangle) { return !seen.insert(sorted(triangle)).second; });
+}
+
 }  // namespace
 
 std::vector<std::string> open_thin_walls(Mesh& mesh, std::span<const std::string> patches) {
@@ -263,6 +278,10 @@ std::vector<std::string> open_thin_walls(Mesh& mesh, std::span<const std::string
       static_cast<GlobalIndex>(std::max(mesh.cells.size(), triangles)) > max_cells_for_faces)
     return notes;
 
+  for (std::size_t patch = 0; patch < mesh.patches.size(); ++patch)
+    if (const auto count = is_thin[patch] ? drop_repeated(mesh.patches[patch]) : 0; count > 0)
+      notes.push_back(fmt::format("patch \"{}\": {} triangles that are listed twice are taken once",
+                                  mesh.patches[patch].name, count));
   std::optional<Surroundings> surroundings(std::in_place, mesh, is_thin);
   for (std::size_t patch = 0; patch < mesh.patches.size(); ++patch)
     if (is_thin[patch] && !surroundings->has_inner_triangle(patch))

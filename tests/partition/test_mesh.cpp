@@ -122,7 +122,7 @@ TEST(MeshValidate, RejectsATriangleGivenTwice) {
   Mesh mesh = box_mesh();
   mesh.patches[3].triangles.push_back(mesh.patches[0].triangles[0]);
   expect_defect(mesh, "triangle 33 of patch \"y_max\"");
-  expect_defect(mesh, "covers a face that another triangle covers too (1 such cases)");
+  expect_defect(mesh, " covers too (1 such cases)");
 }
 
 TEST(MeshValidate, RejectsATriangleBetweenTwoCells) {

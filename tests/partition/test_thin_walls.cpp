@@ -108,6 +108,34 @@ TEST(ThinWalls, ASheetInTheFlowGetsTwoSides) {
   for (std::size_t i = 0; i < 6; ++i) EXPECT_EQ(mesh.patches[i].triangles, before.patches[i].triangles);
 }
 
+/// Other programs list such a sheet once for each side: in one patch, or in a patch a side.
+TEST(ThinWalls, ASheetThatIsListedFromBothSides) {
+  Mesh mesh = box();
+  mesh.patches.push_back(
+      sheet(mesh, "fin", 2, 2, [](const Vec3& at) { return at.x > 1 && at.x < 3 && at.y > 1 && at.y < 3; }));
+  Mesh once = mesh;
+  auto turned = mesh.patches[6];
+  for (auto& triangle : turned.triangles) std::swap(triangle[0], triangle[1]);
+  Mesh in_two = mesh;
+  auto& all = mesh.patches[6].triangles;
+  all.insert(all.end(), turned.triangles.begin(), turned.triangles.end());
+  EXPECT_THAT(open(mesh, {"fin"}),
+              testing::Contains("patch \"fin\": 8 triangles that are listed twice are taken once"));
+  open(once, {"fin"});
+  EXPECT_EQ(mesh.hash(), once.hash());
+
+  turned.name = "low";
+  in_two.patches.push_back(turned);
+  for (const auto& thin : std::vector<std::vector<std::string>>{{}, {"fin"}, {"fin", "low"}}) {
+    Mesh tried = in_two;
+    open(tried, thin);
+    EXPECT_THAT(defect(tried),
+                HasSubstr("covers a face that a triangle of patch \"fin\" covers too (8 such cases)"));
+    EXPECT_THAT(defect(tried), HasSubstr("put each surface in one patch only, and once"));
+    EXPECT_THAT(defect(tried), testing::Not(HasSubstr("lies between")));
+  }
+}
+
 TEST(ThinWalls, ASheetOfOneTriangle) {
   Mesh mesh = box();
   mesh.patches.push_back(

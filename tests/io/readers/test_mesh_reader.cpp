@@ -55,7 +55,7 @@ TEST_F(MeshReader, RefusesWhatIsNoKnownMesh) {
   expect_parts(error_in(write("a.grid", "1 2 3")), {"a.grid: ", "extension", known});
   expect_parts(error_in(write("a.msh", "")), {"does not begin with a section", known});
   expect_parts(error_in(write("b.msh", "mesh of two cells")), {"does not begin with a section", known});
-  expect_parts(error_in(write("a.ugrid", test::ugrid(Encoding::big_endian))), {"is binary", ".b8.ugrid"});
+  expect_parts(error_in(write("a.ugrid", test::ugrid(Encoding::big_endian))), {"big-endian", "extension .b8.ugrid"});
   expect_parts(error_in(write("a.su2", gmsh)), {"is a Gmsh file", known});
   expect_parts(error_in(write("a.b8.ugrid", gmsh)), {"is a Gmsh file", known});
   expect_parts(error_in(write("b.su2", test::ugrid(Encoding::big_endian))), {"is binary", known});
@@ -65,6 +65,11 @@ TEST_F(MeshReader, NamesWhatOtherProgramsWrite) {
   const std::string pointer = "version https://git-lfs.github.com/spec/v1\noid sha256:4d7a\nsize 12345\n";
   for (const char* name : {"a.msh", "a.su2", "a.b8.ugrid", "a.ugrid", "a.cgns", "a.msh.gz", "a"})
     expect_parts(error_in(write(name, pointer)), {"Git LFS pointer", "git lfs pull"});
+  expect_parts(error_in(write("stl.msh", "solid fin\n facet normal 0 0 1\n")), {"STL", "mesh the volume"});
+  expect_parts(error_in(write("ply.su2", "ply\nformat ascii 1.0\n")), {"PLY"});
+  expect_parts(error_in(write("nastran.msh", "$ Created by Gmsh\nGRID    1\n")),
+               {"Nastran", "lose their names"});
+  expect_parts(error_in(write("stub.msh.h5", "\x89HDF\r\n\x1a\n")), {"Fluent"});
   expect_parts(error_in(write("b.msh", "(0 \"GAMBIT to Fluent File\")\n(2 3)\n")), {"Fluent", "CGNS"});
   expect_parts(error_in(write("blank.msh", "\n (0 \"GAMBIT to Fluent File\")\n(2 3)\n")), {"Fluent", "CGNS"});
   for (const char* page : {"<!DOCTYPE html>\n<html>", "\r\n<!doctype HTML>", "\xef\xbb\xbf<HTML>"})
