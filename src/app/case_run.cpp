@@ -1,6 +1,7 @@
 #include "app/case_run.hpp"
 
 #include <fmt/ranges.h>
+#include <cmath>
 
 #include <utility>
 
@@ -138,8 +139,9 @@ RunStatus CaseRun::conclude(RunStatus end, std::span<const TableRow> rows, Real 
     });
   record_.write(result);
   record_.print(result, rows);
-  spdlog::info("of these, steady state {:.1f} s of processor, {} {:.1f} s", result.performance.steady_cpu_s,
-               solves, result.performance.linear_cpu_s);
+  if (std::isfinite(result.performance.linear_cpu_s))
+    spdlog::info("of these, steady state {:.1f} s of processor, {} {:.1f} s", result.performance.steady_cpu_s,
+                 solves, result.performance.linear_cpu_s);
   record_.print_end(result);
   return result.status;
 }

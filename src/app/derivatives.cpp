@@ -2,6 +2,7 @@
 // state.
 #include <fmt/format.h>
 
+#include <cmath>
 #include <memory>
 #include <optional>
 #include <set>
@@ -207,9 +208,10 @@ RunStatus derivatives_verb(const CaseArguments& arguments, const Communicator& c
   record.write(result);
   record.print(result, rows);
   print_limits(result.longitudinal);
-  spdlog::info("of these, steady state {:.1f} s of processor, linear solves {:.1f} s{}",
-               performance.steady_cpu_s, performance.linear_cpu_s,
-               meshes > 1 ? fmt::format(", coarser meshes {:.1f} s", coarser_cpu) : "");
+  if (std::isfinite(performance.linear_cpu_s))
+    spdlog::info("of these, steady state {:.1f} s of processor, linear solves {:.1f} s{}",
+                 performance.steady_cpu_s, performance.linear_cpu_s,
+                 meshes > 1 ? fmt::format(", coarser meshes {:.1f} s", coarser_cpu) : "");
   record.print_end(result);
   return result.status;
 }

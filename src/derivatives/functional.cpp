@@ -34,7 +34,9 @@ std::vector<std::string> split(std::string_view text, char at) {
 
 Real product(const Vec3& a, const Vec3& b, bool of_magnitudes) {
   Real sum = 0;
-  for (int i = 0; i < 3; ++i) sum += of_magnitudes ? std::abs(a[i] * b[i]) : a[i] * b[i];
+  for (int i = 0; i < 3; ++i)
+    if (b[i] != 0)
+      sum += of_magnitudes ? std::abs(a[i] * b[i]) : a[i] * b[i];  // nothing of what is not known
   return sum;
 }
 

@@ -10,6 +10,7 @@
 #include "core/error.hpp"
 #include "core/log.hpp"
 #include "core/memory.hpp"
+#include "derivatives/time_plan.hpp"
 #include "io/files.hpp"
 #include "io/history.hpp"
 #include "io/mesh_reader.hpp"
@@ -183,6 +184,8 @@ Setup load_setup(const Case& settings, const Communicator& comm) {
                                       settings.mesh.scale, settings.file);
     if (!problems.empty()) throw InputError(std::move(problems));
     out.warnings = std::move(warnings);
+    if (auto shortfall = response_shortfall(settings, out.configuration.body_length); !shortfall.empty())
+      out.warnings.push_back("no derivatives will be had: " + shortfall);
   });
   return out;
 }

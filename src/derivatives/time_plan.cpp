@@ -1,6 +1,12 @@
 #include "derivatives/time_plan.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <cmath>
+#include <tuple>
+
+#include "core/fit_needs.hpp"
 
 namespace alphadot {
 
@@ -9,6 +15,15 @@ namespace {
 /// Share of the response up to which each step of a motion that is not harmonic is converged, relative to
 /// unsteady.inner_tolerance: the deficit integral is a fraction of the response times the record.
 constexpr Real response_share = 0.1;
+
+/// Time steps while the slowest wave crosses the body.
+constexpr Real least_steps_of_passage = 12;
+
+/// t* in which it does.
+Real passage_time(Real mach, Real body_length) {
+  const Real lengths = mach > 1 ? mach / (mach - 1) : std::max(mach / (1 - std::min(mach, 0.99)), 2.0);
+  return 2 * lengths * body_length;
+}
 
 }  // namespace
 
@@ -22,6 +37,27 @@ TimePlan time_plan(const Case& settings, const Motion& motion) {
   return {motion.time_of(unsteady.duration) / unsteady.steps,
           unsteady.steps,
           {unsteady.inner_tolerance * response_share, amplitude, unsteady.max_inner}};
+}
+
+std::string response_shortfall(const Case& settings, Real body_length) {
+  const auto& [kind, unsteady] = std::tie(settings.motion.kind, settings.unsteady);
+  const bool is_ramp = kind == MotionKind::ramp_alpha;
+  if (!is_ramp && kind != MotionKind::step_alpha && kind != MotionKind::step_q) return {};
+  const Real passage = passage_time(settings.freestream.mach, body_length);
+  const Real recorded = is_ramp ? ramp_transient * unsteady.duration : unsteady.duration;
+  if (recorded < passage)
+    return fmt::format(
+        "the response is not over: {}unsteady.duration = {:g} is less than the t* = {:.3g} in which the "
+        "slowest "
+        "wave crosses the body",
+        is_ramp ? "half of " : "", unsteady.duration, passage);
+  if (const Real steps = passage * unsteady.steps / unsteady.duration; steps < least_steps_of_passage)
+    return fmt::format(
+        "the time steps are too long for the response: {:.2g} while the slowest wave crosses the body, of "
+        "{:g} "
+        "that are needed; set unsteady.steps to {:.0f}",
+        steps, least_steps_of_passage, std::ceil(least_steps_of_passage * unsteady.duration / passage));
+  return {};
 }
 
 }  // namespace alphadot

@@ -1,6 +1,8 @@
 // The time steps that follow a motion.
 #pragma once
 
+#include <string>
+
 #include "derivatives/case.hpp"
 #include "march/dual_time.hpp"
 #include "motion/motion.hpp"
@@ -15,5 +17,12 @@ struct TimePlan {
 };
 /// As [unsteady] states it: steps a cycle of a harmonic motion, of another the steps of its duration.
 TimePlan time_plan(const Case& settings, const Motion& motion);
+
+/// Why no derivatives can be taken from a step or a ramp that is marched as [unsteady] says, however well
+/// each time step converges; empty where they can. A response is not over before the slowest wave has crossed
+/// the body, of `body_length` in reference lengths: in a supersonic stream the sound that runs against it
+/// while it is carried away, in a subsonic one the sound that runs ahead, or twice the stream itself. A time
+/// step that is too long for that wave does not follow the response.
+std::string response_shortfall(const Case& settings, Real body_length);
 
 }  // namespace alphadot

@@ -59,6 +59,34 @@ class Wedge(ExactCase):
             self.assertAlmostEqual(found[f"{name}_turneddot"], of_q + of_lag, delta=0.01 * (abs(of_q) + abs(of_lag)))
 
 
+class Steps(ExactCase):
+    """Derivatives from steps in time beside the linear solves' on the same mesh: within their +-, or said not to be had."""
+
+    def step(self, code: int = 0, **settings: object) -> dict:
+        keys = {"reference.area": AREA["tiny"], **{key.replace("__", "."): value for key, value in settings.items()}}
+        with tempfile.TemporaryDirectory() as folder:
+            return run(Path(folder), "run", "wedge/step.toml", "wedge_tiny.msh", keys, code=code)
+
+    def test_a_response_that_is_cut_is_none(self) -> None:
+        # At Mach 2 the slowest wave, of speed V - a = V / 2, takes two chords of flight to cross one: t* = 4.
+        for steps, duration, part in ((30, 3.0, "the response is not over"), (12, 6.0, "the time steps are too long")):
+            found = self.step(5, freestream__mach=2.0, unsteady__steps=steps, unsteady__duration=duration)
+            self.assertEqual(found["status"], "not_converged")
+            self.assertIn(part, found["message"])
+            self.assertTrue(all(not entry["converged"] for entry in found["derivatives"].values()))
+
+    def test_a_large_step_is_not_linear(self) -> None:
+        found = self.step(freestream__mach=2.0, motion__amplitude=5.0, unsteady__steps=60, unsteady__duration=6.0)["derivatives"]
+        with tempfile.TemporaryDirectory() as folder:
+            settings = {"reference.area": AREA["tiny"], "freestream.mach": 2.0}
+            linear = run(Path(folder), "derivatives", "wedge/derivatives.toml", "wedge_tiny.msh", settings)["derivatives"]
+        for name in ("CA_alpha", "CN_alpha", "Cm_alpha", "CN_alphadot", "Cm_alphadot"):
+            with self.subTest(name):
+                error = abs(found[name]["value"] - linear[name]["value"])
+                self.assertLessEqual(error, found[name]["uncertainty"])
+        self.assertGreater(abs(found["CN_alpha"]["value"] - linear["CN_alpha"]["value"]), 1e-3)  # or the test would show nothing
+
+
 if __name__ == "__main__":
     TINY, COARSE = map(computed, ("tiny", "coarse"))
     unittest.main()
