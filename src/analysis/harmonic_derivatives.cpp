@@ -75,14 +75,13 @@ HarmonicDerivatives harmonic_derivatives(const ForceHistory& history, MotionKind
 
   const Real k = basis.reduced_frequency, damping = damping_share(k * history.time_step);
   const Real per_angle = 1 / result.amplitude, per_rate = 1 / (k * result.amplitude);
-  constexpr Real beyond_cubic = 1.3;  // for terms of the fifth order, which add to those of the third
   DerivativeSetOf<Real> fit, inner, time_step, amplitude;
   const auto add = [&](Variable variable, int c, const FittedAmplitude& part, Real scale, Real third,
                        Real damped) {
     result.estimated.derivatives[variable][c].value = scale * part.value;
     fit[variable][c] = std::abs(scale) * std::hypot(part.residual, part.half_cycles);
     inner[variable][c] = std::abs(scale) * part.samples;
-    amplitude[variable][c] = beyond_cubic * std::abs(scale * third);
+    amplitude[variable][c] = std::abs(scale * third);
     time_step[variable][c] = damped;
   };
   for (int c = 0; c < Coefficients::size(); ++c) {

@@ -64,9 +64,9 @@ Coefficients initial_loads(const History& history) {
 }
 
 /// What a finite angle does to derivatives from a single step or ramp, which cannot tell it from the rest: a
-/// bound by experience, of twelve times the square of the angle in the largest load of a column, and of a fifth
-/// of the angle too in CA, which is even in it. Wedges at Mach 2 have half of both; Busemann's terms of third
-/// order are a sixth of the first.
+/// bound by experience, of twelve times the square of the angle in the largest load of a column, and of a
+/// fifth of the angle too in CA, which is even in it. Wedges at Mach 2 have half of both; Busemann's terms of
+/// third order are a sixth of the first.
 void add_amplitude(EstimatedDerivatives& estimated, Real angle) {
   constexpr Real by_square = 12, of_even = 0.2;
   DerivativeSetOf<Real> out;

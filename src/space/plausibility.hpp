@@ -31,7 +31,7 @@ inline constexpr Real supersonic_mach = 1.2;
 inline constexpr Real fore_share = 0.1;
 /// Degrees of a motion; and reduced frequency times body length in reference lengths, from which on the
 /// stream passes less than a third of the body in a period.
-inline constexpr Real largest_amplitude = 15, largest_frequency = 10;
+inline constexpr Real largest_amplitude = 7, largest_frequency = 10;
 /// Below this angle between faces, and above this aspect ratio and step in volume, gradients lose their
 /// accuracy; generators' own optimisers leave nothing like it.
 inline constexpr Real smallest_angle = 1;
