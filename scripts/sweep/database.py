@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
+from functools import cache, cached_property
+from operator import itemgetter
 from typing import NamedTuple
 
 from sweep.plan import Run, Sweep
@@ -28,6 +30,12 @@ def by_control(name: str) -> str | None:
     coefficient, _, variable = name.partition("_")
     other = coefficient in COEFFICIENTS and variable.isidentifier() and name not in KNOWN and variable not in STREAM
     return variable if other else None
+
+
+@cache
+def known(name: str) -> str | None:
+    """The name of a derivative, the same object wherever it stands; None for what a table of derivatives has no place for."""
+    return name if name in KNOWN or by_control(name) else None
 
 
 def group(name: str) -> str:
@@ -54,8 +62,14 @@ class Estimate(NamedTuple):
 
     @staticmethod
     def of(entry: dict) -> Estimate:
-        error = entry["uncertainty"]
-        return Estimate(entry["value"], math.nan if error is None else error, entry.get("converged", True), entry.get("parts", {}))
+        try:
+            found = tuple.__new__(Estimate, OF_ENTRY(entry))  # there may be hundreds of thousands
+        except KeyError:
+            found = Estimate(entry["value"], entry["uncertainty"], entry.get("converged", True), entry.get("parts", {}))
+        return found._replace(uncertainty=math.nan) if found.uncertainty is None else found
+
+
+OF_ENTRY = itemgetter(*Estimate._fields)
 
 
 @dataclass(frozen=True)
@@ -72,7 +86,7 @@ class Point:
     components: dict[str, dict[str, float]]
     result: dict
 
-    @property
+    @cached_property
     def is_good(self) -> bool:
         """Did everything come to what was asked for?"""
         return self.state.phase is Phase.DONE and all(entry.converged for entry in self.derivatives.values())
@@ -124,9 +138,9 @@ def point_of(run: Run) -> Point:
         "",
         {name: forces[name] for name in COEFFICIENTS if forces.get(name) is not None},
         {
-            name: Estimate.of(entry)
+            own: Estimate.of(entry)
             for name, entry in result.get("derivatives", {}).items()
-            if (name in KNOWN or by_control(name)) and entry["value"] is not None
+            if entry["value"] is not None and (own := known(name))
         },
         forces.get("components", {}),
         result,

@@ -5,8 +5,10 @@ from __future__ import annotations
 import itertools
 import math
 from collections import Counter
+from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
 from functools import cached_property
+from operator import itemgetter
 
 import numpy as np
 
@@ -41,17 +43,26 @@ class Grid:
     def at(self, mach: float, alpha: float, beta: float) -> Point:
         return self.points[mach, alpha, beta]
 
+    @cached_property
+    def ordered(self) -> list[Point]:
+        """Its points, the last axis fastest."""
+        return [self.points[key] for key in itertools.product(self.mach, self.alpha, self.beta)]
+
     def values(self, name: str) -> np.ndarray | None:
         """(Mach, alpha, beta) of a coefficient or a derivative; None unless every point has it."""
-        points = [self.points[key] for key in itertools.product(self.mach, self.alpha, self.beta)]
+        if name in COEFFICIENTS:
+            return self.array(map(itemgetter(name), [point.coefficients for point in self.ordered]))
+        return self.array(entry.value for entry in map(itemgetter(name), [point.derivatives for point in self.ordered]))
+
+    def uncertainties(self, name: str) -> np.ndarray:
+        """The same of a derivative that every point has."""
+        return self.array(point.derivatives[name].uncertainty for point in self.ordered)
+
+    def array(self, values: Iterable[float]) -> np.ndarray | None:
         try:
-            if name in COEFFICIENTS:
-                values = [point.coefficients[name] for point in points]
-            else:
-                values = [point.derivatives[name].value for point in points]
+            return np.fromiter(values, float, len(self.ordered)).reshape(self.shape)
         except KeyError:
             return None
-        return np.array(values).reshape(self.shape)
 
     @cached_property
     def derivatives(self) -> list[str]:

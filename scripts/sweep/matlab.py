@@ -30,9 +30,7 @@ def write(path: Path, grid: Grid, controls: Sequence[Control], title: str) -> No
     aero |= {name: values for name, values in known.items() if values is not None}
     for name in grid.derivatives:
         aero[name] = grid.values(name)
-        aero[f"{name}_pm"] = np.array([
-            [[grid.at(m, a, b).derivatives[name].uncertainty for b in grid.beta] for a in grid.alpha] for m in grid.mach
-        ])  # fmt: skip
+        aero[f"{name}_pm"] = grid.uncertainties(name)
     for control in controls:
         aero[control.name] = {
             "degrees": np.array(control.degrees), "mach": np.array(control.mach), "alpha": np.array(control.alpha),

@@ -7,7 +7,7 @@ import io
 import math
 from dataclasses import dataclass, field
 
-from sweep.database import COEFFICIENTS, KNOWN, SIDE, by_control, group, in_order
+from sweep.database import COEFFICIENTS, SIDE, by_control, group, in_order, known
 from sweep.results import Entry, Results, finite, relative
 from sweep.text import duration
 from table_one import FREE_FLIGHT_CENTER
@@ -141,9 +141,9 @@ def plane_table(results: Results, name: str, caption: str, names: list[str]) -> 
     return Table(name, caption, columns, rows if names else [], formats, joined=joined, hidden={len(columns) - 1})
 
 
-def known(results: Results) -> list[str]:
+def found(results: Results) -> list[str]:
     """Derivatives that some run has."""
-    return in_order(name for entry in results.with_derivatives for name in entry.result["derivatives"] if name in KNOWN or by_control(name))
+    return in_order(filter(known, (name for entry in results.with_derivatives for name in entry.result["derivatives"])))
 
 
 def side_table(results: Results) -> Table:
@@ -159,7 +159,7 @@ def is_zero(entry: dict) -> bool:
 
 def cross_tables(results: Results) -> tuple[Table, list[str]]:
     """Loads out of the plane of symmetry by variables in it, and the reverse; and those that are zero in every run."""
-    names = [name for name in known(results) if group(name) == "cross"]
+    names = [name for name in found(results) if group(name) == "cross"]
     own = lambda name: [entry.result["derivatives"][name] for entry in results.with_derivatives if name in entry.result["derivatives"]]
     zeros = [name for name in names if all(map(is_zero, own(name)))]
     shown = [name for name in names if name not in zeros]
@@ -171,9 +171,9 @@ def control_table(results: Results) -> Table:
     rows: list[list[Cell]] = []
     used: set[str] = set()
     for entry in results.with_derivatives:
-        found = entry.result["derivatives"]
-        for control in dict.fromkeys(filter(None, map(by_control, found))):
-            own = {name: found.get(f"{name}_{control}") for name in COEFFICIENTS}
+        derivatives = entry.result["derivatives"]
+        for control in dict.fromkeys(filter(None, map(by_control, derivatives))):
+            own = {name: derivatives.get(f"{name}_{control}") for name in COEFFICIENTS}
             used |= {name for name, load in own.items() if load and not is_zero(load)}
             cells = [cell for load in own.values() for cell in ([load["value"], load["uncertainty"]] if load else [None, None])]
             rows.append([control, entry.mach, entry.run.alpha, *cells, entry.label])

@@ -5,6 +5,8 @@ from __future__ import annotations
 import csv
 import math
 import os
+from itertools import chain
+from math import isfinite
 from pathlib import Path
 
 import h5py
@@ -48,13 +50,14 @@ def columns_of(points: list[Point]) -> Columns:
     out["x_cp"] = [x_cp(point) for point in points]
     out["static_margin"] = [number(point.static_margin) for point in points]
     known = [point.derivatives for point in points]
-    for name in in_order(name for derivatives in known for name in derivatives):
-        found = [derivatives.get(name) for derivatives in known]
-        out[name] = [entry and entry.value for entry in found]
-        out[f"{name}.uncertainty"] = [entry and number(entry.uncertainty) for entry in found]
-        out[f"{name}.converged"] = [entry and entry.converged for entry in found]
-        for part in dict.fromkeys(part for entry in found if entry for part in entry.parts):
-            out[f"{name}.{part}"] = [entry and entry.parts.get(part) for entry in found]
+    for name in in_order(dict.fromkeys(chain.from_iterable(known))):
+        found = [derivatives.get(name, ABSENT) for derivatives in known]
+        values, uncertainties, converged, parts = zip(*found)
+        out[name] = list(values)
+        out[f"{name}.uncertainty"] = list(map(number, uncertainties))
+        out[f"{name}.converged"] = list(converged)
+        for part in dict.fromkeys(chain.from_iterable(parts)):
+            out[f"{name}.{part}"] = [own.get(part) for own in parts]
     components = [point.components for point in points]
     for patch in dict.fromkeys(patch for own in components for patch in own):
         loads = [own.get(patch, NOTHING) for own in components]
@@ -69,6 +72,7 @@ def columns_of(points: list[Point]) -> Columns:
 
 
 NOTHING: dict = {}
+ABSENT = (None, None, None, NOTHING)  # in the place of an Estimate
 PANEL = ("CNp", "Ch", "Cb", "x_cp", "s_cp")
 
 
@@ -95,8 +99,8 @@ def x_cp(point: Point) -> float | None:
     return reference["moment_center"][0] + reference["length"] * point.pressure_center
 
 
-def number(value: float) -> float | None:
-    return None if value is None or not math.isfinite(value) else value
+def number(value: float | None) -> float | None:
+    return value if value is not None and isfinite(value) else None
 
 
 def write_csv(path: Path, columns: Columns, title: str) -> None:
