@@ -272,6 +272,19 @@ void Group::write_text(const std::string& name, const std::string& text) const {
         "cannot write " + inside(name));
 }
 
+void Group::write_texts(const std::string& name, const std::vector<std::string>& texts) const {
+  const Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
+  check(H5Tset_size(type.id(), H5T_VARIABLE), file_, "cannot write " + inside(name));
+  std::vector<const char*> pointers;
+  for (const auto& text : texts) pointers.push_back(text.c_str());
+  const Dataset target =
+      add_dataset(name, type.id(),
+                  space_of(static_cast<GlobalIndex>(texts.size()), 0, static_cast<GlobalIndex>(texts.size())),
+                  without_times(H5P_DATASET_CREATE));
+  check(H5Dwrite(target.handle_.id(), type.id(), H5S_ALL, H5S_ALL, H5P_DEFAULT, pointers.data()), file_,
+        "cannot write " + inside(name));
+}
+
 // --- File
 // -----------------------------------------------------------------------------------------------------------
 

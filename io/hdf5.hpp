@@ -143,6 +143,8 @@ class Group : public Object {
     return write(name, std::span<const T>(values), columns);
   }
   void write_text(const std::string& name, const std::string& text) const;
+  /// Texts of any length, without a NUL; marked as ASCII, which VTK's reader takes alone, whatever they hold.
+  void write_texts(const std::string& name, const std::vector<std::string>& texts) const;
 
  protected:
   Group(std::string file, std::string name, Handle handle)

@@ -26,6 +26,13 @@ struct VtkField {
       : name(std::move(field_name)),
         components(3),
         values(reinterpret_cast<const Real*>(vectors.data()), 3 * vectors.size()) {}
+
+  /// The same quantity elsewhere.
+  VtkField with(std::span<const Real> other_values) const {
+    VtkField out = *this;
+    out.values = other_values;
+    return out;
+  }
 };
 
 /// Writes the owned cells of all ranks with their fields ([owned_cells] values each, or more: ghosts are left
@@ -36,9 +43,11 @@ struct VtkField {
 void write_flow(const std::string& path, const Subdomain& domain, const std::vector<VtkField>& fields,
                 const Origin& origin, const Communicator& comm);
 
-/// The same for the boundary faces ([boundary_faces] values in each field), with the integer field "patch":
-/// the index into Subdomain::patch_names, which are its attribute "names", one a line.
+/// The same for the boundary faces ([boundary_faces] values in each field) of some patches, by their numbers
+/// (empty: of all): on faces, and as means at points, by area, for smooth pictures. With the integer field
+/// "patch" on faces: the index into Subdomain::patch_names, which are its attribute "names", one a line, and
+/// FieldData/patch_names.
 void write_surface(const std::string& path, const Subdomain& domain, const std::vector<VtkField>& fields,
-                   const Origin& origin, const Communicator& comm);
+                   const Origin& origin, const Communicator& comm, std::span<const std::size_t> patches = {});
 
 }  // namespace alphadot

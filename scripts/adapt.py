@@ -29,9 +29,10 @@ sys.path.insert(0, str(Path(__file__).resolve().parent))
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 from adaptation.loop import Adaptation, Budget, Stream
-from adaptation.steps import Interrupted, StepError, Steps, tell, write_json
+from adaptation.steps import Interrupted, StepError, Steps, tell
 from adaptation.tolerance import ToleranceError, read_tolerances
 from meshing.sources import digest_of, files_of
+from sweep.state import write_json
 
 GOALS = "Cm_alpha,Cm_q,Cm_alphadot"
 ASKED = "asked.json"  # what a folder is for

@@ -31,13 +31,15 @@ A sweep file:
   mach = 2.5
   set."unsteady.cycles" = 2.5           # any key of the case
 
-Axes: mach, alpha, beta, or alpha_t and phi (total incidence, and the roll angle of the cross-flow from below towards starboard), mesh,
-method. A number, a list, or a range, both ends in it: {from = 0, to = 10, step = 2.5} or {from = 0, to = 10, count = 5}. Rows of a
+Axes: mach, alpha, beta, or alpha_t and phi (total incidence, and the roll angle of the cross-flow from below towards starboard), p, q, r
+(of a steady turn, times length / 2V), mesh, method. A number, a list, or a range, both ends in it: {from = 0, to = 10, step = 2.5} or {from = 0, to = 10, count = 5}. Rows of a
 CSV file whose first line names axes: matrix = "points.csv". symmetry = ["y", "z"] leaves out what is the mirror image of another run;
 ["axial"], for a body with three or more equal fins at small incidence, lets the tables take the side's derivatives from those in pitch.
 altitude (m) and unit ("m", "mm", "in", ...: of the mesh) are for dimensional loads.
 A state of mass for the dynamics, as many as there are: [[mass]] with label, mass (kg), inertia = [Ixx, Iyy, Izz] (kg m2), center (of
 gravity, x in the mesh's unit).
+Where the report cuts the surface for lines of the pressure and its derivatives: cuts = {x = [0.5], y = [0], fins = {fin_1 = [0.5]}}, x and
+y in the mesh's unit, shares of the spans of patches.
 The case may be a description or a design that `alphadot mesh` takes; mesh_mach = [0.5, 2] makes one mesh for that range, and
 model = "full" one of both halves, as a block with sideslip has by itself: the side's derivatives need it. Panels of a description
 turn, each combination in a mesh of its own:
@@ -48,6 +50,7 @@ turn, each combination in a mesh of its own:
   mach = {from = 1.5, to = 3, step = 0.5}
   deflection.pitch = [0, 5]
 
+Those of a case file turn its [[controls]], on its mesh: pitch = {fin_1 = 1, fin_3 = -1}.
 A run leaves its volume, flow.vtkhdf, only where the case or the sweep file sets "output.flow"; checkpoints of linear solves go when these
 are done.
 

@@ -17,8 +17,8 @@ import numpy as np
 
 from adaptation.family import Interval
 from adaptation.loop import Adaptation, Family, Outcome
-from adaptation.steps import write_json
 from sweep.figures import COLORS, STYLE
+from sweep.state import write_json
 from sweep.text import aligned, duration, size
 
 COLUMNS = ("derivative", "value", "uncertainty", "tolerance", "extrapolated", "order", "scatter", "finest", "middle", "coarsest")

@@ -12,11 +12,15 @@ import sys
 import time
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass
+from functools import cached_property
+from math import isnan
 from pathlib import Path
+
+from sweep.database import Estimate
+from sweep.state import GOOD_ENDS, RESULT, write_json
 
 MESH_PROGRAM = Path(__file__).resolve().parents[1] / "mesh.py"
 DONE = "done.json"  # of a step: what was asked, what it cost
-REACHED = ("converged", "completed")
 
 
 class StepError(Exception):
@@ -61,20 +65,22 @@ class Solved:
     def cells(self) -> int:
         return self.result["mesh"]["cells"]
 
+    @cached_property
+    def estimates(self) -> dict[str, Estimate]:
+        return {name: Estimate.of(entry) for name, entry in self.result["derivatives"].items() if entry["value"] is not None}
+
     @property
     def values(self) -> dict[str, float]:
-        return {name: entry["value"] for name, entry in self.result["derivatives"].items() if entry["value"] is not None}
+        return {name: entry.value for name, entry in self.estimates.items()}
 
     @property
     def solver(self) -> dict[str, float]:
         """Uncertainties; one that is not known is as large as the value."""
-        entries = self.result["derivatives"].items()
-        known = lambda entry: abs(entry["value"]) if entry["uncertainty"] is None else entry["uncertainty"]
-        return {name: known(entry) for name, entry in entries if entry["value"] is not None}
+        return {name: abs(e.value) if isnan(e.uncertainty) else e.uncertainty for name, e in self.estimates.items()}
 
     @property
     def is_converged(self) -> bool:
-        return self.result["status"] in REACHED
+        return self.result["status"] in GOOD_ENDS
 
 
 class Steps:
@@ -129,7 +135,7 @@ class Steps:
                 file.unlink()
             write_json(folder / DONE, done)
             begun.unlink()
-        return Solved(folder, json.loads((folder / "result.json").read_text()), Cost(**done["cost"]))
+        return Solved(folder, json.loads((folder / RESULT).read_text()), Cost(**done["cost"]))
 
     def _launcher(self) -> list[str]:
         return [os.environ.get("MPIEXEC", "mpirun"), "-n", str(self.ranks)] if self.ranks > 1 else []
@@ -162,13 +168,6 @@ def _done(folder: Path, asked: list) -> dict | None:
     file = folder / DONE
     done = json.loads(file.read_text()) if file.exists() else {}
     return done if done.get("asked") == json.loads(json.dumps(asked)) else None
-
-
-def write_json(path: Path, content: object) -> None:
-    """A file that appears when it is complete."""
-    partial = path.with_name(path.name + ".part")
-    partial.write_text(json.dumps(content, indent=2) + "\n")
-    os.replace(partial, path)
 
 
 def tell(text: str) -> None:

@@ -11,7 +11,8 @@ from pathlib import Path
 from sweep.errors import SweepError
 
 WORDS = ("mesh", "method")
-NUMBERS = ("alpha", "beta", "alpha_t", "phi", "mach")
+RATES = ("p", "q", "r")  # of a steady turn, times length / 2V
+NUMBERS = (*RATES, "alpha", "beta", "alpha_t", "phi", "mach")
 AXES = (*WORDS, *NUMBERS)  # in the order in which they multiply, the last fastest; deflections between mesh and method
 BODY_ANGLES, TOTAL_ANGLES = ("alpha", "beta"), ("alpha_t", "phi")
 MOST = 100_000  # values of a range

@@ -144,7 +144,7 @@ def extend(sweep: Sweep, arguments: Namespace) -> int:
 
 
 def others(sweep: Sweep, method: str) -> dict:
-    """Angles, deflections and meshes that a method has in the sweep: what [[runs]] of it must say. Raises SweepError when no lists
+    """Angles, rotations, deflections and meshes that a method has in the sweep: what [[runs]] of it must say. Raises SweepError when no lists
     multiply to them."""
     alike = [run for run in sweep.runs if run.method == method]
     if not alike:
@@ -155,7 +155,9 @@ def others(sweep: Sweep, method: str) -> dict:
     out |= {"mesh": distinct(run.mesh for run in alike)} if any(run.mesh for run in alike) else {}
     controls = distinct(name for run in alike for name in run.deflections)
     turned = {name: distinct(run.deflections.get(name, 0.0) for run in alike) for name in controls}
-    points = distinct((run.alpha, run.beta, run.mesh, tuple(run.deflections.items())) for run in alike)
+    rates = {name: distinct(run.rates.get(name, 0.0) for run in alike) for name in distinct(name for run in alike for name in run.rates)}
+    out |= rates
+    points = distinct((run.alpha, run.beta, run.mesh, *run.rates.values(), tuple(run.deflections.items())) for run in alike)
     product = prod(len(values) for values in (*out.values(), *turned.values()))
     if len(points) != product:
         raise SweepError(f"{sweep.file}: the runs of {method} are no product of lists: add the Mach numbers in the sweep file")

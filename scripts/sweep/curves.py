@@ -180,7 +180,7 @@ class Family:
 def families(points: list[Point], folder: Path) -> tuple[Family, Family, Family]:
     """Against alpha, against Mach number, and against beta: undeflected points without mirror images, the first two at the least
     sideslip, the last at the least incidence."""
-    own = [point for point in points if point.coefficients and not point.image and not point.is_deflected]
+    own = [point for point in points if point.coefficients and not point.image and point.run.is_plain]
     alpha, beta = (min((abs(getattr(point, name)) for point in own), default=0.0) for name in ("alpha", "beta"))
     ahead = [point for point in own if abs(point.beta) == beta]
     aside = [point for point in own if abs(point.alpha) == alpha]

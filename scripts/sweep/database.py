@@ -93,7 +93,7 @@ class Point:
 
     @property
     def series(self) -> str:
-        """Runs of one series differ in their conditions and deflections alone."""
+        """Runs of one series differ in their conditions, rotations and deflections alone."""
         return " ".join(word for word in (self.run.label, self.run.mesh) if word)
 
     @property
@@ -148,7 +148,7 @@ def point_of(run: Run) -> Point:
 
 
 def images(points: Iterable[Point], planes: set[str]) -> Iterable[Point]:
-    """Mirror images of undeflected points, but for conditions that were computed."""
+    """Mirror images of plain points, but for conditions that were computed."""
     points = list(points)
     known = {(point.series, point.run.method, point.run.mach, round(point.alpha, 9), round(point.beta, 9)) for point in points}
     for kind in ("y", "z", "yz"):
@@ -156,7 +156,7 @@ def images(points: Iterable[Point], planes: set[str]) -> Iterable[Point]:
             alpha = -point.alpha if "z" in kind else point.alpha
             beta = -point.beta if "y" in kind else point.beta
             key = (point.series, point.run.method, point.run.mach, round(alpha, 9), round(beta, 9))
-            if point.is_deflected or not point.coefficients or key in known:
+            if not point.run.is_plain or not point.coefficients or key in known:
                 continue
             known.add(key)
             yield mirrored(point, kind, alpha + 0.0, beta + 0.0)

@@ -133,7 +133,7 @@ def dynamics(sweep: Sweep, program: Path) -> tuple[str, list[dict]]:
     if not states:
         wanted = "mass (kg), inertia = [Ixx, Iyy, Izz] (kg m2), center (of gravity, x in the mesh's unit)"
         raise SweepError(f"{sweep.file}: dynamics need [[mass]]: {wanted}")
-    points = [point for point in read_points(sweep) if point.derivatives and not point.image and not point.is_deflected]
+    points = [point for point in read_points(sweep) if point.derivatives and not point.image and point.run.is_plain]
     good = [point for point in points if point.is_good]
     if not good:
         raise SweepError(f"{sweep.file}: no run with derivatives is done and converged; see sweep.py status")

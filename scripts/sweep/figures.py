@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import csv
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -17,6 +18,7 @@ import h5py
 import matplotlib.pyplot as plt
 import numpy as np
 
+from sweep import cuts
 from sweep.derive import Derivatives, Runs
 from sweep.picture import Picture
 from sweep.results import Entry, Results, finite
@@ -292,3 +294,20 @@ def convergence_figures(results: Results, folder: Path) -> list[Picture]:
         axes.legend(fontsize=7)
         pictures.append(save(figure, folder, "convergence_error", "Motions: error left in Cm"))
     return pictures
+
+
+def cut_figures(flows: list[list[cuts.Cut]], names: Sequence[str], colors: Sequence[tuple], folder: Path) -> list[Picture]:
+    """A panel a cut and quantity that some flow has, a line a flow."""
+    out = []
+    for number, same in enumerate(zip(*flows)):
+        for name in [name for name in names if any(name in one.values for one in same)]:
+            words = cuts.labels(same[0], name)
+            figure, axes = panel(words["xlabel"], words["ylabel"])
+            for one, color in zip(same, colors):
+                if name in one.values:
+                    cuts.draw(axes, one, name, color=color, linewidth=1.1)
+            axes.set_title(f"{words['ylabel']}, {same[0].label}", fontsize=11)
+            figure.savefig(folder / f"cut{number + 1}_{name}.png", dpi=110)
+            plt.close(figure)
+            out.append(Picture(folder / f"cut{number + 1}_{name}.png", f"{words['ylabel']} in the cut {same[0].label}"))
+    return out

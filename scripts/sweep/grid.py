@@ -103,7 +103,8 @@ def make_grid(points: list[Point], series: str, deflections: dict[str, float] | 
     """The largest full grid that is found by leaving out, one after the other, the value of an axis at which most is missing. Raises
     SweepError."""
     turned = {name: value for name, value in (deflections or {}).items() if value}
-    own = [point for point in points if point.series == series and {n: v for n, v in point.run.deflections.items() if v} == turned]
+    own = [point for point in points if point.series == series and not any(point.run.rates.values())]
+    own = [point for point in own if {name: value for name, value in point.run.deflections.items() if value} == turned]
     good = {(point.run.mach, round(point.alpha, 9), round(point.beta, 9)): point for point in own if point.is_good}
     left_out = [why_not(point) for point in own if not point.is_good and not point.image]
     axes = [sorted({key[axis] for key in good}) for axis in range(3)]

@@ -10,15 +10,15 @@ from dataclasses import dataclass, field
 from functools import lru_cache
 from pathlib import Path
 
-from sweep.axes import BODY_ANGLES, TOTAL_ANGLES, is_number, matrix, numbers, points
+from sweep.axes import BODY_ANGLES, RATES, TOTAL_ANGLES, is_number, matrix, numbers, points
 from sweep.errors import SweepError
 
 Value = bool | int | float | str | list
 DERIVATIVES, STEADY = "derivatives", "steady"  # methods; any other is a kind of motion
 BLOCK_KEYS = {
-    "label", "case", "mesh", "mesh_mach", "model", "method", "mach", "alpha", "beta", "alpha_t", "phi", "deflection", "matrix", "ranks", "set"
+    "label", "case", "mesh", "mesh_mach", "model", "method", "mach", "alpha", "beta", "alpha_t", "phi", "p", "q", "r", "deflection", "matrix", "ranks", "set"
 }  # fmt: skip
-SWEEP_KEYS = BLOCK_KEYS - {"label"} | {"title", "folder", "runs", "controls", "symmetry", "altitude", "unit", "mass"}
+SWEEP_KEYS = BLOCK_KEYS - {"label"} | {"title", "folder", "runs", "controls", "symmetry", "altitude", "unit", "mass", "cuts"}
 WITHOUT_EFFECT = ("checkpoint", "output")  # tables of the case that change no number
 EXTENSIONS = "extensions.toml"  # in the folder of the sweep: what `extend` has added
 DESIGNS = {".ork", ".cdx1", ".step", ".stp", ".iges", ".igs", ".brep", ".stl", ".obj", ".tri"}  # that `alphadot mesh` meshes
@@ -43,7 +43,8 @@ class Run:
     mesh_mach: tuple[float, float] | None = None  # what a description is meshed for; None: what it says itself
     model: str = ""  # "half" or "full" mesh of a description; "": half where it is symmetric
     deflections: dict[str, float] = field(default_factory=dict)  # of controls, degrees
-    panels: dict[str, Value] = field(default_factory=dict)  # the same of sets of fins: a number, or one a panel
+    panels: dict[str, Value] = field(default_factory=dict)  # the same of a description's sets of fins: a number, or one a panel
+    rates: dict[str, float] = field(default_factory=dict)  # p, q, r of a steady turn, times length / 2V, where the sweep speaks of them
 
     @property
     def verb(self) -> str:
@@ -53,6 +54,11 @@ class Run:
     def is_motion(self) -> bool:
         """Does it march in time?"""
         return self.method not in (DERIVATIVES, STEADY)
+
+    @property
+    def is_plain(self) -> bool:
+        """With all controls at rest, and no rotation."""
+        return not any(self.deflections.values()) and not any(self.rates.values())
 
     @property
     def is_described(self) -> bool:
@@ -194,6 +200,7 @@ def check_head(path: Path, content: dict) -> None:
     if content.get("unit", "m") not in UNITS:
         raise SweepError(f"{path}: unit, of the mesh, is one of {', '.join(UNITS)}, not {content['unit']!r}")
     check_mass(path, content.get("mass", []))
+    check_cuts(path, content.get("cuts", {}))
     controls = content.get("controls", {})
     for name, sets in controls.items() if isinstance(controls, dict) else [("controls", controls)]:
         good = lambda value: is_number(value) or (isinstance(value, list) and value and all(map(is_number, value)))
@@ -202,6 +209,15 @@ def check_head(path: Path, content: dict) -> None:
                 f"{path}: [controls] {name} must say what a degree of it turns, such as pitch = {{canard = [1, 1, -1, -1]}}: sets of fins"
                 " of the description with degrees of all panels, or of each; its name must not be an axis"
             )
+
+
+def check_cuts(path: Path, places: object) -> None:
+    """Where the report cuts the surface. Raises SweepError."""
+    numbers = lambda value: isinstance(value, list) and all(map(is_number, value))
+    fins = places.get("fins", {}) if isinstance(places, dict) else None
+    good = isinstance(fins, dict) and places.keys() <= {"x", "y", "fins"}
+    if not good or not all(map(numbers, [*fins.values(), *(places.get(key, []) for key in "xy")])):
+        raise SweepError(f"{path}: cuts is like {{x = [0.5], y = [0], fins = {{fin_1 = [0.5]}}}}: places in the mesh's unit, and shares of spans")
 
 
 def check_mass(path: Path, states: object) -> None:
@@ -217,7 +233,7 @@ def check_mass(path: Path, states: object) -> None:
 
 
 def without_images(runs: list[Run], planes: set[str]) -> list[Run]:
-    """Runs but for those that are the mirror image of another: tables have them from there. With controls deflected there is none."""
+    """Runs but for those that are the mirror image of another: tables have them from there. With controls deflected or in a turn there is none."""
     if not planes:
         return runs
 
@@ -226,13 +242,13 @@ def without_images(runs: list[Run], planes: set[str]) -> list[Run]:
         same = (run.case, run.label, run.method, run.mesh, run.mesh_mach, run.mach, repr(sorted(rest.items())))
         return (*same, round(alpha, 9), round(beta, 9))
 
-    present = {key(run, run.alpha, run.beta) for run in runs if not any(run.deflections.values())}
+    present = {key(run, run.alpha, run.beta) for run in runs if run.is_plain}
 
     def is_image(run: Run) -> bool:
         alpha = abs(run.alpha) if "z" in planes else run.alpha
         beta = abs(run.beta) if "y" in planes else run.beta
         turned = (alpha, beta) != (run.alpha, run.beta)
-        return turned and not any(run.deflections.values()) and key(run, alpha, beta) in present
+        return turned and run.is_plain and key(run, alpha, beta) in present
 
     return [run for run in runs if not is_image(run)]
 
@@ -263,12 +279,21 @@ def expand(path: Path, folder: Path, defaults: dict, block: dict, controls: dict
         raise SweepError(f'{path}: model, of the mesh of a description, is "half" or "full", not {model!r}')
     runs = []
     every = points(str(path), merged, rows, controls)
-    if not model and any(point["beta"] for point in every) and is_described(case):
+    if not model and any(point.get(key) for point in every for key in ("beta", "p", "r")) and is_described(case):
         model = "full"  # for all of the block: meshes of two kinds would differ by more than the sideslip does
     for point in every:
         method, mesh, mach, alpha, beta = (point[key] for key in ("method", "mesh", "mach", "alpha", "beta"))
         own = {"freestream.mach": mach, "freestream.alpha": alpha}
         own |= {"freestream.beta": beta} if beta or "beta" in given else {}
+        rates = {key: point[key] for key in RATES if key in point}
+        if any(rates.values()):
+            if method not in (DERIVATIVES, STEADY):
+                raise SweepError(f"{path}: p, q and r are of steady turns, not of the method {method}")
+            own["motion.rotation"] = [rates.get(key, 0.0) for key in RATES]
+        panels = panels_of(path, controls, point["deflection"])
+        if panels and not is_described(case):
+            own |= deflections_of(path, case, panels)
+            panels = {}
         own |= settings
         if method != DERIVATIVES:
             own["motion.kind"] = "none" if method == STEADY else method
@@ -277,18 +302,33 @@ def expand(path: Path, folder: Path, defaults: dict, block: dict, controls: dict
         label = merged.get("label", method)
         angles = [f"at{point['alpha_t']:g}", f"phi{point['phi']:g}"] if "alpha_t" in point else [f"a{alpha:g}"]
         angles += [f"b{beta:g}"] if "beta" in given else []
-        words = [label, Path(mesh).stem, f"m{mach:g}", *angles, *(f"{name}{value:g}" for name, value in point["deflection"].items())]
+        words = [label, Path(mesh).stem, f"m{mach:g}", *angles, *(f"{key}{value:g}" for key, value in rates.items())]
+        words += [f"{name}{value:g}" for name, value in point["deflection"].items()]
         name = "_".join(word for word in words if word)
         if not all(character.isalnum() or character in "._-+" for character in name):
             raise SweepError(f"{path}: '{name}' cannot name a folder; use letters, digits, and . _ - + in label and method")
         runs.append(Run(
             name, folder / name, case, label, method, mach, alpha, beta, mesh, ranks, own,
             tuple(map(float, mesh_mach)) if mesh_mach else None, model, point["deflection"],
-            panels_of(path, controls, point["deflection"]),
+            panels, rates,
         ))  # fmt: skip
-    if any(run.panels for run in runs) and not (runs[0].is_described and case.suffix.lower() == ".toml"):
+    if any(run.panels for run in runs) and case.suffix.lower() != ".toml":
         raise SweepError(f"{path}: {case.name} is not a description with [[fins]]: there is nothing that a control can turn")
     return runs
+
+
+def deflections_of(path: Path, case: Path, panels: dict[str, Value]) -> dict[str, Value]:
+    """What turns the [[controls]] of a case file. Raises SweepError."""
+    content = case_content(case)
+    content = content if isinstance(content, dict) else {}
+    known = [control.get("name") for control in content.get("controls", [])]
+    for name, degrees in panels.items():
+        if name not in known and not content.get("mesh", {}).get("from"):
+            own = ", ".join(map(str, known)) or "none"
+            raise SweepError(f"{path}: {case.name} is not a description with [[fins]] '{name}', nor has it such [[controls]]; there are {own}")
+        if isinstance(degrees, list):
+            raise SweepError(f"{path}: {case.name} is a case file: [controls] gives degrees of its [[controls]] one by one, not {name} = {degrees}")
+    return {f"deflections.{name}": degrees for name, degrees in panels.items()}
 
 
 def panels_of(path: Path, controls: dict, deflection: dict[str, float]) -> dict[str, Value]:

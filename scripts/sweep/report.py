@@ -10,8 +10,9 @@ from pathlib import Path
 
 import matplotlib.pyplot as plt
 import numpy as np
+from matplotlib.colors import to_hex
 
-from sweep import curves, dynamics, figures, page, surface, tables, trim
+from sweep import curves, cuts, dynamics, figures, page, surface, tables, trim
 from sweep.controls import read_controls
 from sweep.grid import choose_series, make_grid
 from sweep.plan import Sweep, SweepError
@@ -38,10 +39,12 @@ def write_report(sweep: Sweep, program: Path) -> Path:
             ("Against sideslip", against_beta(results, folder)),
             ("Against Mach number", against_mach(results, folder)),
             ("Controls", deflected(results, folder)),
+            ("Interference", write(tables.interference_table(results), folder)),
             ("Motion", moving),
             ("Loops", loops(results, folder)),
             ("Derivatives", derivatives(results, folder)),
             ("Surface pressure", pressures(results, folder)),
+            ("Pressure cuts", pressure_cuts(results, folder)),
             ("Convergence", page.grid(figures.convergence_figures(results, folder))),
             ("Meshes", page.grid(surface.mesh_pictures(results, folder))),
             ("Cost", write(tables.cost_table(results), folder)),
@@ -244,6 +247,25 @@ def derivatives(results: Results, folder: Path) -> str:
 def pressures(results: Results, folder: Path) -> str:
     scale, pictures = surface.pressure_pictures(results, folder)
     return page.scale(scale, "colours of the pressure coefficient") + page.grid(pictures, broad=True) if scale else ""
+
+
+CUT = ("cp", "cp_alpha", "cp_q", "cp_alphadot", "cp_beta", "cp_betadot")  # what is drawn; the file has all
+
+
+def pressure_cuts(results: Results, folder: Path) -> str:
+    """Lines of the pressure and its derivatives where planes cut the body, a colour a flow; the sweep file's `cuts`, or the plane y = 0."""
+    shown = surface.flows(results)
+    places = results.sweep.content.get("cuts", {"y": [0.0]})
+    try:
+        found = {entry.run.name: cuts.wanted(surface.Surface.read(entry.run.folder / surface.FILE), places) for entry in shown}
+    except SweepError as error:
+        return f'<p class="note">{escape(str(error))}.</p>'
+    if not found:
+        return ""
+    cuts.write_csv(folder / "pressure_cuts.csv", results.sweep.title, found)
+    colors = [plt.get_cmap("viridis")(0.9 * index / max(1, len(shown) - 1)) for index in range(len(shown))]
+    keys = [page.Key(surface.title_of(entry), to_hex(color), "solid") for entry, color in zip(shown, colors)]
+    return page.legend(keys) + page.grid(figures.cut_figures(list(found.values()), CUT, colors, folder))
 
 
 def unfinished(results: Results) -> str:

@@ -69,7 +69,7 @@ def ending(path: Path | str) -> dict:
     return {"status": status[1].decode(), "message": json.loads(message[1])} | performance
 
 
-def write_json(path: Path, content: dict) -> None:
+def write_json(path: Path, content: object) -> None:
     """Writes through a temporary file: whoever reads sees the old content or the new."""
     temporary = path.with_name(path.name + ".tmp")
     temporary.write_text(json.dumps(content, indent=1) + "\n")

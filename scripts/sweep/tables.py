@@ -8,6 +8,8 @@ import math
 from dataclasses import dataclass, field
 
 from sweep.database import COEFFICIENTS, SIDE, by_control, group, in_order, known
+from sweep.errors import SweepError
+from sweep.interference import interference
 from sweep.results import Entry, Results, finite, relative
 from sweep.text import duration
 from table_one import FREE_FLIGHT_CENTER
@@ -183,6 +185,29 @@ def control_table(results: Results) -> Table:
     formats = ["", ".4g", ".4g", *[".4g", ".1g"] * len(COEFFICIENTS), ""]
     caption = "Derivatives by deflections, per rad, and by their rates (dot)"
     return Table("by_controls", caption, columns, sorted(rows, key=lambda row: row[0]), formats, joined=joined, hidden=idle | {len(columns) - 1})
+
+
+def interference_table(results: Results) -> Table:
+    """Body in the presence of fins less the body alone, where the sweep has both at one condition; by the same walls."""
+    names = ["CN_alpha", "Cm_alpha", "CN_q", "Cm_q", "CN_alphadot", "Cm_alphadot"]
+    walls = lambda entry: set(entry.result["forces"]["components"])
+    condition = lambda entry: (entry.mach, entry.run.alpha, entry.run.beta)
+    rows: list[list[Cell]] = []
+    for whole in results.with_derivatives:
+        bodies = [bare for bare in results.with_derivatives if condition(bare) == condition(whole) and walls(bare) < walls(whole)]
+        if not bodies or not whole.run.is_plain:
+            continue
+        bare = min(bodies, key=lambda entry: len(walls(entry)))
+        try:
+            found = {row.name: row for row in interference(whole.run.folder, bare.run.folder)}
+        except SweepError:
+            continue  # of another reference: no pair
+        cells = [cell for name in names for cell in ([found[name].interference, found[name].uncertainty] if name in found else [None, None])]
+        rows.append([whole.mach, whole.run.alpha, *cells, whole.label, bare.label])
+    columns = ["Mach", "alpha, deg", *(word for name in names for word in (name, "±")), "run", "body alone"]
+    caption = "Interference: the body in the presence of fins less the body alone, per rad; ± of the solves, without what the two meshes differ by"
+    formats = [".4g", ".4g", *[".3f", ".1g"] * 2, *[".2f", ".1g"] * 4, "", ""]
+    return Table("interference", caption, columns, rows, formats, joined=set(range(3, 14, 2)), hidden={14})
 
 
 def force_table(results: Results) -> Table:

@@ -13,7 +13,7 @@ import h5py
 import numpy as np
 
 from sweep.atmosphere import air_at
-from sweep.axes import to_total
+from sweep.axes import RATES, to_total
 from sweep.database import COEFFICIENTS, KNOWN, Point, by_control, in_order
 from sweep.plan import Sweep
 
@@ -23,6 +23,7 @@ ABOUT = (
     "CA aft, CN up, CY starboard; Cl, Cm, Cn about axes forward, starboard, down; about the moment centre (x_ref, y_ref, z_ref).",
     "alpha_t and phi: total incidence, and the roll angle of the cross-flow from below towards starboard. CN@PATCH: the part of a patch.",
     "Of a control's panel by itself: CNp across its hinge, Ch about it, Cb of bending; x_cp, s_cp from the hinge's point, in the mesh's unit.",
+    "p, q, r: a steady turn, times length / 2V.",
     "image: planes in which the run is mirrored (its own symmetry), empty for a run itself. x_cp = x_ref - length Cm / CN.",
 )
 
@@ -43,6 +44,8 @@ def columns_of(points: list[Point]) -> Columns:
         "beta": [point.beta for point in points],
     }
     out["alpha_t"], out["phi"] = map(list, zip(*(to_total(point.alpha, point.beta) for point in points)))
+    for name in (name for name in RATES if any(name in point.run.rates for point in points)):
+        out[name] = [point.run.rates.get(name, 0.0) for point in points]
     for name in controls:
         out[name] = [point.run.deflections.get(name, 0.0) for point in points]
     for name in COEFFICIENTS:

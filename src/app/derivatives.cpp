@@ -101,6 +101,7 @@ struct Outcome {
   Result result;
   DerivativeSet derivatives;
   std::vector<TableRow> rows;
+  FieldsOnFaces pressures;
 };
 
 /// Marches to the steady state, solves for the derivatives and writes their tables.
@@ -143,7 +144,7 @@ Outcome complete(CaseRun& run, std::span<const MeshDerivatives> coarser) {
     rows.insert(rows.end(), balance.begin(), balance.end());
     run.communicator().on_root([&] { write_tables(run, result, solved, rows); });
   }
-  return {std::move(result), std::move(estimated.derivatives), std::move(rows)};
+  return {std::move(result), std::move(estimated.derivatives), std::move(rows), std::move(solved.pressures)};
 }
 
 void say_which(std::size_t number, std::size_t of, const CaseRun& run) {
@@ -165,8 +166,8 @@ std::optional<std::vector<MeshDerivatives>> complete_coarser(CaseRun& finest,
     level->record().announce();
     say_which(i + 2, levels.size() + 1, *level);
     finest.progress().begin_phase(fmt::format("mesh {} of {}", i + 2, levels.size() + 1));
-    auto [result, derivatives, rows] = complete(*level, {});
-    level->record().write(result);
+    auto [result, derivatives, rows, pressures] = complete(*level, {});
+    level->record().write(result, pressures);
     const std::string message = fmt::format("on {}: {}", setup.mesh.file, result.message);
     if (derivatives.empty()) {
       status = result.status;
@@ -199,13 +200,13 @@ RunStatus derivatives_verb(const CaseArguments& arguments, const Communicator& c
   const Real coarser_cpu = comm.sum(timer.cpu());
 
   say_which(1, meshes, run);
-  auto [result, derivatives, rows] = complete(run, *coarser);
+  auto [result, derivatives, rows, pressures] = complete(run, *coarser);
   auto& performance = result.performance;
   if (meshes > 1) {
     performance.coarser_meshes_cpu_s = coarser_cpu;
     performance.core_us_per_cell_iteration *= 1 - coarser_cpu / performance.cpu_s;
   }
-  record.write(result);
+  record.write(result, pressures);
   record.print(result, rows);
   print_limits(result.longitudinal);
   if (std::isfinite(performance.linear_cpu_s))

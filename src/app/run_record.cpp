@@ -195,10 +195,10 @@ void RunRecord::announce(RunStatus status, std::string message) const {
   comm_.on_root([&] { write_result(path_ + "/result.json", out); });
 }
 
-void RunRecord::write(const Result& result) const {
+void RunRecord::write(const Result& result, const FieldsOnFaces& more) const {
   if (keeps_result_of_before(result.status)) return;
   if (result.status != RunStatus::interrupted)
-    write_pictures(path_, flow_.setup(), flow_.iteration(), origin_, comm_);
+    write_pictures(path_, flow_.setup(), flow_.iteration(), more, origin_, comm_);
   comm_.on_root([&] {
     replace_file_with(fmt::format("{}/{}", path_, resolved_case_name),
                       fmt::format("# {}\n{}", origin_.text(), result.case_text));

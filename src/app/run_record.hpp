@@ -13,6 +13,7 @@
 #include "core/error.hpp"
 #include "core/timer.hpp"
 #include "derivatives/flow_case.hpp"
+#include "derivatives/linear_derivatives.hpp"
 #include "io/result.hpp"
 
 namespace alphadot {
@@ -59,8 +60,8 @@ class RunRecord {
   void announce(RunStatus status = RunStatus::interrupted,
                 std::string message = "the run has not ended, or was killed") const;
   /// Writes pictures (but when interrupted), resolved case and result.json, and removes what is none of this
-  /// run's; nothing where the result of before is kept. Collective.
-  void write(const Result& result) const;
+  /// run's; nothing where the result of before is kept. `more`: for the picture of the surface. Collective.
+  void write(const Result& result, const FieldsOnFaces& more = {}) const;
   /// What the run has found, on standard output (unless quiet), and what it cost, in the log.
   void print(const Result& result, std::span<const TableRow> derivatives) const;
   /// The last line of the log: how the run ended, and what was not reached.

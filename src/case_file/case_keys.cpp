@@ -281,7 +281,7 @@ std::vector<CaseKey> make_keys() {
       .key("folder", &OutputSettings::folder, TextValue{}, "folder of the run")
       .default_is("runs/<name of the case file>")
       .key("flow", &OutputSettings::flow, FlagValue{}, "write flow.vtkhdf")
-      .key("surface", &OutputSettings::surface, FlagValue{}, "write surface.vtkhdf")
+      .key("surface", &OutputSettings::surface, FlagValue{}, "write surface.vtkhdf and symmetry.vtkhdf")
       .key("stations", &OutputSettings::stations, IntegerValue{.from = 0, .to = 10'000},
            "of the derivatives' distributions along the body and along the panels of controls; 0: none");
 

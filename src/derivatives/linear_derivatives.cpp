@@ -257,10 +257,13 @@ LinearDerivatives linear_derivatives(FlowCase& flow, Responses& responses, const
     nearer = solve_nearer(flow, solver, responses, observer.go_on);
     if (nearer.empty()) return ended();
   }
-  if (flow.settings().output.stations > 0) {
+  if (const auto& output = flow.settings().output; output.stations > 0 || output.surface) {
     const LoadDistributions distributions(flow, solver, responses);
-    out.along_body = distributions.along_body();
-    out.along_panels = distributions.along_panels();
+    if (output.stations > 0) {
+      out.along_body = distributions.along_body();
+      out.along_panels = distributions.along_panels();
+    }
+    if (output.surface) out.pressures = distributions.pressures();
   }
   if (settings.limiter_uncertainty && !solve_all(flow, solver, responses, true, observer, out))
     return ended();

@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "analysis/derivatives.hpp"
@@ -36,6 +37,9 @@ struct PanelDerivatives {
   EstimatedDerivatives estimated;  ///< of its walls, about the case's moment centre
 };
 
+/// Quantities by name, [boundary_faces].
+using FieldsOnFaces = std::vector<std::pair<std::string, std::vector<Real>>>;
+
 /// What linear solves give.
 struct LinearDerivatives {
   /// About the case's moment centre, per rad and reduced rate. The parts are "linear", "steady" and, when the
@@ -46,6 +50,8 @@ struct LinearDerivatives {
   /// Of the steady loads and all derivatives: along x of the whole and of the sets of walls; along each panel
   /// of a control, in its own frame. None when the case asks for no stations.
   std::vector<Distribution> along_body = {}, along_panels = {};
+  /// cp_alpha, cp_q, ...; none when the case asks for no surface.
+  FieldsOnFaces pressures = {};
   std::vector<std::string> shortfalls = {};  ///< solves that did not reach their tolerance
 };
 

@@ -105,4 +105,19 @@ std::vector<Distribution> LoadDistributions::along_panels() const {
   return out;
 }
 
+FieldsOnFaces LoadDistributions::pressures() const {
+  const auto& domain = flow_.setup().domain;
+  const Real mach = flow_.settings().freestream.mach, dynamic_pressure = 0.5 * mach * mach;
+  FieldsOnFaces out;
+  for (const auto& [variable, faces] : by_) {
+    if (terms_of(variable, flow_.settings()).size() > 1 || is_control_rate(variable)) continue;
+    auto& values = out.emplace_back(derivative_name("cp", variable), std::vector<Real>{}).second;
+    for (std::size_t i = 0; i < faces.size(); ++i) {
+      const Vec3& normal = domain.boundary_normal[i];
+      values.push_back(dot(faces[i].force, normal) / (dynamic_pressure * dot(normal, normal)));
+    }
+  }
+  return out;
+}
+
 }  // namespace alphadot

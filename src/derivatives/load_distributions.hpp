@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "derivatives/distribution.hpp"
+#include "derivatives/linear_derivatives.hpp"
 #include "derivatives/part.hpp"
 #include "derivatives/responses.hpp"
 
@@ -21,6 +22,10 @@ class LoadDistributions {
   /// Of the panel of each control, without the mirror image of a half model: loads in its frame along its
   /// outboard direction. None for those whose hinge is along x. Collective.
   std::vector<Distribution> along_panels() const;
+  /// [boundary_faces] derivatives of the pressure coefficient on walls by flight variables and by single
+  /// controls, zero on other boundaries: the force across each face per its area. By a control also what the
+  /// area of the face changes by, which on the panel itself is nothing.
+  FieldsOnFaces pressures() const;
 
  private:
   const FlowCase& flow_;

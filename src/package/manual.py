@@ -39,8 +39,9 @@ residual and loads at every iteration of the steady march, likewise
 .I progress.json
 the latest state, while the run works
 .TP
-.I flow.vtkhdf, surface.vtkhdf
-the flow, for ParaView 5.11 or later
+.I flow.vtkhdf, surface.vtkhdf, symmetry.vtkhdf
+the flow, for ParaView 5.11 or later: in the whole, on the body (with cp_alpha and so on, derivatives of Cp, of the verb derivatives), on
+planes of symmetry
 .TP
 .I derivatives.csv, derivatives.st, derivatives.jsbsim.xml
 of the verb derivatives: for spreadsheets, readers of AVL's files and JSBSim

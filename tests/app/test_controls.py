@@ -14,6 +14,8 @@ import tempfile
 import unittest
 from pathlib import Path
 
+import h5py
+import numpy as np
 from program import RANKS, box, gmsh_text, run, write_case
 
 CASE = """\
@@ -197,6 +199,26 @@ class Controls(unittest.TestCase):
         outcome = run(self.folder, "derivatives", "case.toml", "--out", "none_of_them", "--set", "output.stations=0")
         self.assertEqual(outcome.codes, [0] * RANKS)
         self.assertFalse((self.folder / "none_of_them/along_body.csv").exists())
+
+    def test_pressures_on_the_surface_add_up(self) -> None:
+        """Derivatives of Cp times area vectors are those of the forces; the file holds walls alone, the plane of symmetry another."""
+        with h5py.File(self.folder / "forward/surface.vtkhdf") as file:
+            data = file["VTKHDF"]
+            triangles = data["Points"][()].astype(float)[data["Connectivity"][()].reshape(-1, 3)]
+            patch, names = data["CellData/patch"][()], data["FieldData/patch_names"].asstr()[()].tolist()
+            fields = {name: values[()].astype(float) for name, values in data["CellData"].items()}
+            self.assertEqual(set(data["PointData"]), set(fields) - {"patch"})
+        self.assertEqual({names[index] for index in patch}, {"fore", "flap", "side"})
+        areas = 0.5 * np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
+        for variable in ("alpha", "q", "alphadot"):
+            force = 2 * (fields[f"cp_{variable}"][:, None] * areas).sum(axis=0)  # of both halves, over an area of 1
+            for name, found in (("CA", force[0]), ("CN", force[2])):
+                wanted = self.values().get(f"{name}_{variable}", 0.0)  # CA: no wall looks forward
+                self.assertAlmostEqual(found, wanted, delta=2e-6 * (1 + abs(wanted)), msg=f"{name}_{variable}")
+        self.assertIn("cp_flap", fields)
+        self.assertNotIn("cp_both", fields)
+        with h5py.File(self.folder / "forward/symmetry.vtkhdf") as file:
+            self.assertEqual(set(file["VTKHDF/CellData"]), {"patch", "pressure", "cp"})
 
     def test_other_programs_have_them(self) -> None:
         values = self.values()

@@ -62,7 +62,7 @@ class RunFolder(unittest.TestCase):
         self.refused("run", "--set", "motion.amplitude=2", *faster, says=("its motion.amplitude is 1.0, not 2.0",))
         self.call("run", "--set", "motion.kind=none", *faster, "--overwrite", "--set", "output.flow=false")
         names = {file.name for file in self.out.iterdir() if not file.name.startswith("checkpoint")}
-        self.assertEqual(names, {"result.json", "resolved_case.toml", "steady.csv", "surface.vtkhdf"})
+        self.assertEqual(names, {"result.json", "resolved_case.toml", "steady.csv", "surface.vtkhdf", "symmetry.vtkhdf"})
 
     def test_another_mesh_under_the_same_name(self) -> None:
         self.call("derivatives")
@@ -133,7 +133,7 @@ class RunFolder(unittest.TestCase):
     def test_every_file_says_what_it_is_of(self) -> None:
         origin = rf"Mach 2, alpha 1 deg, beta 0 deg, gamma 1.4; mesh box.msh, hash {'[0-9a-f]' * 16}; alphadot \d+\.\d+\.\d+"
         files = {
-            "run": ("history.csv", "steady.csv", "flow.vtkhdf", "surface.vtkhdf", "resolved_case.toml"),
+            "run": ("history.csv", "steady.csv", "flow.vtkhdf", "surface.vtkhdf", "symmetry.vtkhdf", "resolved_case.toml"),
             "derivatives": (*OF_DERIVATIVES, "steady.csv", "flow.vtkhdf"),
             "adjoint": ("adjoint.csv", "adjoint.vtkhdf", "surface_sensitivity.csv", "surface_sensitivity.vtkhdf", "steady.csv"),
         }

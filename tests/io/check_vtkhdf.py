@@ -60,6 +60,25 @@ def faults_of(path):
         for name, dataset in root["CellData"].items():
             if dataset.shape not in ((cells,), (cells, 3), (cells, 5)):  # five: the states of a checkpoint
                 yield f"CellData/{name} has the shape {dataset.shape}"
+        if "PointData" in root:
+            if root["FieldData/patch_names"].asstr()[()].tolist() != root["CellData/patch"].attrs["names"].decode().split("\n")[:-1]:
+                yield "FieldData/patch_names are not the patches"
+            yield from faults_at_points(root, coordinates[connectivity.reshape(-1, 3)], connectivity.reshape(-1, 3), coordinates)
+
+
+def faults_at_points(root, triangles, corners, coordinates):
+    """Values at points are means of those on the faces around them, by area, also where ranks meet."""
+    _, place = np.unique(np.round(coordinates, 5), axis=0, return_inverse=True)
+    place = place.reshape(-1)
+    areas = np.linalg.norm(np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0]), axis=1)
+    for name, dataset in root["PointData"].items():
+        faces, found = root["CellData"][name][:].reshape(len(areas), -1), dataset[:].reshape(len(coordinates), -1)
+        sums, weights = np.zeros((place.max() + 1, faces.shape[1])), np.zeros(place.max() + 1)
+        for corner in corners.T:
+            np.add.at(sums, place[corner], areas[:, None] * faces)
+            np.add.at(weights, place[corner], areas)
+        if not np.allclose(found, (sums / weights[:, None])[place], atol=1e-4 * np.abs(faces).max()):
+            yield f"PointData/{name} are not the means of the faces around"
 
 
 faults = [f"{path}: {fault}" for path in sys.argv[1:] for fault in faults_of(path)]

@@ -118,6 +118,25 @@ TEST(VtkHdf, SurfaceHoldsEveryFaceWithItsPatch) {
   });
 }
 
+// Values at points are looked at by check_vtkhdf.py.
+TEST(VtkHdf, SurfaceOfSomePatches) {
+  const Communicator comm;
+  const Subdomain domain = distributed_box(comm);
+  std::vector<Real> x(domain.boundary_faces.size());
+  for (std::size_t i = 0; i < x.size(); ++i) x[i] = domain.boundary_center[i].x;
+  const TemporaryFolder folder;
+  const std::string path = comm.broadcast(folder / "some.vtkhdf");
+  const std::vector<std::size_t> sides{0, 1};
+  write_surface(path, domain, {{"x", x}}, origin, comm, sides);
+  comm.on_root([&] {
+    const auto file = hdf5::File::open(path);
+    const auto root = file.group("VTKHDF");
+    EXPECT_EQ(root.dataset("CellData/patch").read<std::int32_t>().size(), 2u * 2 * 4 * 5);
+    for (const Real at : root.dataset("PointData/x").read<double>())  // of both ends, where all faces have it
+      EXPECT_TRUE(std::abs(at + 1) < 1e-6 || std::abs(at - 2) < 1e-6) << at;
+  });
+}
+
 TEST(VtkHdf, FailureReachesEveryRankAndLeavesNoFile) {
   const Communicator comm;
   const Subdomain domain = distributed_box(comm);

@@ -130,6 +130,25 @@ class Axes(Workspace):
         self.assertEqual(models("alpha_t = [0, 2]\nphi = 45\n"), ["full", "full"])
         self.refused('[[runs]]\nmach = 2\nmodel = "quarter"\n', "quarter", head=head)
 
+    def test_controls_of_a_case_file(self) -> None:
+        """They are its own keys, on its mesh; sums of what several controls of the sweep turn."""
+        names = "".join(f'[[controls]]\nname = "{name}"\n' for name in ("flap_1", "flap_2"))
+        (self.folder / "good.toml").write_text(names)
+        head = HEAD + "[controls]\npitch = {flap_1 = 1, flap_2 = 1}\nroll = {flap_1 = 1, flap_2 = -1}\n"
+        *_, run = self.runs("[[runs]]\nmach = 2\ndeflection = {pitch = [0, 2], roll = [0, 2]}\n", head)
+        self.assertEqual((run.settings["deflections.flap_1"], run.settings.get("deflections.flap_2"), run.panels), (4.0, None, {}))
+        self.refused("[[runs]]\nmach = 2\ndeflection.pitch = 1\n", "flap_3", "flap_1, flap_2", head=HEAD + "[controls]\npitch = {flap_3 = 1}\n")
+        self.refused("[[runs]]\nmach = 2\ndeflection.pitch = 1\n", "one by one", head=HEAD + "[controls]\npitch = {flap_1 = [1, 1]}\n")
+
+    def test_steady_turns(self) -> None:
+        runs = self.runs("[[runs]]\nmach = 2\nq = [0, 0.01]\nr = 0.002\n")
+        self.assertEqual([run.settings["motion.rotation"] for run in runs], [[0.0, 0.0, 0.002], [0.0, 0.01, 0.002]])
+        self.assertEqual([run.is_plain for run in runs], [False, False])
+        self.assertIn("_q0.01_r0.002", runs[1].name)
+        runs = self.runs("[[runs]]\nmach = 2\nq = 0\n")
+        self.assertTrue(runs[0].is_plain and "motion.rotation" not in runs[0].settings)
+        self.refused('[[runs]]\nmach = 2\nmethod = "plunge"\nq = 0.01\n', "not of the method plunge")
+
     def test_controls_need_a_description(self) -> None:
         block = "[[runs]]\nmach = 2\ndeflection.pitch = 5\n"
         self.refused(block, "is not a description", head=HEAD + "[controls]\npitch = {canard = 1}\n")

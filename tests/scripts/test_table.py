@@ -264,6 +264,11 @@ class Tables(Workspace):
         self.assertAlmostEqual(float(at[1]["FN_N"]), steady["CN"] * AREA * 0.5 * 0.36480 * (2 * 295.154) ** 2, delta=0.02)
         self.assertAlmostEqual(float(at[0]["reynolds"]), 1.225 * 2 * 340.294 * LENGTH / 1.7894e-5, delta=1e3)
 
+    def test_turns_are_rows_and_on_no_grid(self) -> None:
+        said = self.made("[[runs]]\nmach = [1.5, 2]\nq = [0, 0.01]\n")
+        self.assertEqual([row["q"] for row in self.rows()], ["0.0", "0.0", "0.01", "0.01"])
+        self.assertIn("2 Mach numbers x 1 alpha", said)
+
     def test_text_table(self) -> None:
         self.made("[[runs]]\nmach = [1.5, 2]\nalpha = [0, 4]\n")
         text = (self.table / "coefficients.txt").read_text()
