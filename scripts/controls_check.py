@@ -5,9 +5,8 @@
 
 Meshes a description whose fins all turn about the middles of their roots, half and full, and compares, in per cent of the largest number
 of a kind: derivatives by each control with central differences of flows with it deflected (nine decades both); loads of the panels of the
-half model with those of the full one, which differ as the meshes do. Then what a control costs beside one solve for a flight variable, of the
-solves for alpha, q, alphadot and all controls, and the price of adjoints for the same. Exit code 1 when differences of flows are off by
-more than --tolerance per cent. Minutes.
+half model with those of the full one, which differ as the meshes do. Then what a control costs beside a solve for a flight variable, and
+what adjoints cost, which have all controls. Exit code 1 when differences of flows are off by more than --tolerance per cent. Minutes.
 """
 
 from __future__ import annotations
@@ -53,7 +52,8 @@ class Check:
 
     def mesh(self, model: str) -> Path:
         folder = self.out / f"mesh_{model}"
-        self.call("/usr/bin/python3", "-B", ROOT / "scripts/mesh.py", self.description, "-o", folder, "--level", self.level, "--model", model, "--no-picture")
+        words = ("-o", folder, "--level", self.level, "--model", model, "--no-picture")
+        self.call("/usr/bin/python3", "-B", ROOT / "scripts/mesh.py", self.description, *words)
         return folder / "case.toml"
 
     def run(self, verb: str, case: Path, name: str, *words: str) -> dict:
@@ -73,13 +73,13 @@ def differences(check: Check, case: Path, degrees: float) -> float:
     controls = list(dict.fromkeys(panel for panel, _ in panels))
     lines: list[Line] = []
     for control in controls:
-        low, high = (
-            check.run("run", case, f"{control}_{sign:+d}", *deep, "--set", f"deflections.{control}={sign * degrees}")["forces"] for sign in (-1, 1)
-        )
+        turned = lambda sign: (*deep, "--set", f"deflections.{control}={sign * degrees}")
+        low, high = (check.run("run", case, f"{control}_{sign:+d}", *turned(sign))["forces"] for sign in (-1, 1))
         slope = lambda low, high: (high - low) / math.radians(2 * degrees)
         lines += [(f"{name}_{control}", name, solved[f"{name}_{control}"]["value"], slope(low[name], high[name])) for name in LOADS]
-        own = (low["panels"][control], high["panels"][control])
-        lines += [(f"{name}_{control} of itself", name, panels[control, f"{name}_{control}"], slope(own[0][name], own[1][name])) for name in PANEL]
+        for name in PANEL:
+            by_flows = slope(low["panels"][control][name], high["panels"][control][name])
+            lines.append((f"{name}_{control} of itself", name, panels[control, f"{name}_{control}"], by_flows))
     return compared(f"solves beside flows at ±{degrees:g} degrees", ("solve", "flows"), lines)
 
 
@@ -112,7 +112,8 @@ def costs(check: Check, case: Path) -> None:
     none = cost(check.run("derivatives", case, "without_controls", "--set", "controls=[]", "--set", "control_sets={}"))
     adjoint = cost(check.run("adjoint", case, "adjoint", "--of", "CA,CN,Cm"))
     print(
-        f"solves for alpha, q and alphadot {none:.1f} s of processor, with {count} controls {every:.1f} s: a control {(every - none) / count:.2f} s,"
+        f"solves for alpha, q and alphadot {none:.1f} s of processor, with {count} controls {every:.1f} s: a control"
+        f" {(every - none) / count:.2f} s,"
         f" {3 * (every - none) / count / none:.2f} of one solve; adjoints of three loads, which have all of them, {adjoint:.1f} s"
     )
 

@@ -37,7 +37,7 @@ def main() -> None:
     print(aligned([COLUMNS[:-1] + ("±",), *((name, *map(number, values)) for name, *values in cells)]))
     if arguments.output:
         with open(arguments.output, "w", newline="") as file:
-            file.write(f"# Interference: {arguments.run} less {arguments.alone}; per radian, rates times length / 2V; ± of the solves alone\n")
+            file.write(f"# Interference: {arguments.run} less {arguments.alone}; per radian, rates times length / 2V; ± of the solves\n")
             writer = csv.writer(file, lineterminator="\n")
             writer.writerows([COLUMNS, *cells])
         print(arguments.output)

@@ -48,7 +48,7 @@ def main() -> None:
     parser.add_argument("--y", nargs="+", type=float, default=[], help="along it at these y")
     parser.add_argument("--fin", nargs="+", type=share_of, default=[], metavar="PATCH=SHARE", help="across a panel")
     parser.add_argument("--of", default="cp", help="what is drawn (default: cp)")
-    parser.add_argument("-o", "--output", type=Path, default=Path("pressure_cuts"), help="files without their suffix (default: pressure_cuts)")
+    parser.add_argument("-o", "--output", type=Path, default=Path("pressure_cuts"), help="files without a suffix")
     arguments = parser.parse_args()
     fins: dict[str, list[float]] = {}
     for patch, share in arguments.fin:
@@ -56,7 +56,8 @@ def main() -> None:
     places = {"x": arguments.x, "y": arguments.y or ([] if arguments.x or fins else [0.0]), "fins": fins}
     found = {run.name: cuts_of(run, places) for run in arguments.runs}
     names, flows = arguments.of.split(","), list(found.values())
-    figure, axes = plt.subplots(len(names), len(flows[0]), figsize=(5.2 * len(flows[0]), 3.8 * len(names)), squeeze=False, layout="constrained")
+    size = (5.2 * len(flows[0]), 3.8 * len(names))
+    figure, axes = plt.subplots(len(names), len(flows[0]), figsize=size, squeeze=False, layout="constrained")
     for i, name in enumerate(names):
         for j, same in enumerate(zip(*flows)):
             for number, (run, one) in enumerate(zip(found, same)):

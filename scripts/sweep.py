@@ -32,9 +32,10 @@ A sweep file:
   set."unsteady.cycles" = 2.5           # any key of the case
 
 Axes: mach, alpha, beta, or alpha_t and phi (total incidence, and the roll angle of the cross-flow from below towards starboard), p, q, r
-(of a steady turn, times length / 2V), mesh, method. A number, a list, or a range, both ends in it: {from = 0, to = 10, step = 2.5} or {from = 0, to = 10, count = 5}. Rows of a
-CSV file whose first line names axes: matrix = "points.csv". symmetry = ["y", "z"] leaves out what is the mirror image of another run;
-["axial"], for a body with three or more equal fins at small incidence, lets the tables take the side's derivatives from those in pitch.
+(of a steady turn, times length / 2V), mesh, method. A number, a list, or a range, both ends in it: {from = 0, to = 10, step = 2.5} or
+{from = 0, to = 10, count = 5}. Rows of a CSV file whose first line names axes: matrix = "points.csv". symmetry = ["y", "z"] leaves out
+what is the mirror image of another run; ["axial"], for a body with three or more equal fins at small incidence, lets the tables take
+the side's derivatives from those in pitch.
 altitude (m) and unit ("m", "mm", "in", ...: of the mesh) are for dimensional loads.
 A state of mass for the dynamics, as many as there are: [[mass]] with label, mass (kg), inertia = [Ixx, Iyy, Izz] (kg m2), center (of
 gravity, x in the mesh's unit).
@@ -103,11 +104,13 @@ def parse() -> argparse.Namespace:
     trim.add_argument("--control", nargs="+", default=[], metavar="NAME", help="controls (default: those that were deflected)")
     trim.add_argument("--CN", nargs="+", type=float, default=[], metavar="CN", help="normal forces at which it is wanted")
     trim.add_argument(
-        "--center", nargs="+", type=center, default=[], metavar="X[,Y,Z]", help="of gravity, in the mesh's unit (default: those of [[mass]])"
-    )
+        "--center", nargs="+", type=center, default=[], metavar="X[,Y,Z]",
+        help="of gravity, in the mesh's unit (default: those of [[mass]])",
+    )  # fmt: skip
     trim.add_argument(
-        "--linear", type=float, default=5.0, metavar="DEG", help="how far a control is turned by its derivatives alone (default: %(default)s)"
-    )
+        "--linear", type=float, default=5.0, metavar="DEG",
+        help="how far a control is turned by its derivatives alone (default: %(default)s)",
+    )  # fmt: skip
     extend = add("extend", "add Mach numbers or cycles")
     extend.add_argument("--mach", type=float, nargs="+", metavar="M", help="Mach numbers to add, for the methods of the sweep")
     extend.add_argument("--method", nargs="+", help="for these methods only")

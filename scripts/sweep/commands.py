@@ -144,8 +144,8 @@ def extend(sweep: Sweep, arguments: Namespace) -> int:
 
 
 def others(sweep: Sweep, method: str) -> dict:
-    """Angles, rotations, deflections and meshes that a method has in the sweep: what [[runs]] of it must say. Raises SweepError when no lists
-    multiply to them."""
+    """Angles, rotations, deflections and meshes that a method has in the sweep: what [[runs]] of it must say. Raises SweepError when no
+    lists multiply to them."""
     alike = [run for run in sweep.runs if run.method == method]
     if not alike:
         return {}

@@ -299,15 +299,17 @@ def convergence_figures(results: Results, folder: Path) -> list[Picture]:
 def cut_figures(flows: list[list[cuts.Cut]], names: Sequence[str], colors: Sequence[tuple], folder: Path) -> list[Picture]:
     """A panel a cut and quantity that some flow has, a line a flow."""
     out = []
-    for number, same in enumerate(zip(*flows)):
-        for name in [name for name in names if any(name in one.values for one in same)]:
-            words = cuts.labels(same[0], name)
+    labels = dict.fromkeys(one.label for flow in flows for one in flow)
+    for number, label in enumerate(labels, 1):
+        same = [(one, color) for flow, color in zip(flows, colors) for one in flow if one.label == label]
+        for name in [name for name in names if any(name in one.values for one, _ in same)]:
+            words = cuts.labels(same[0][0], name)
             figure, axes = panel(words["xlabel"], words["ylabel"])
-            for one, color in zip(same, colors):
+            for one, color in same:
                 if name in one.values:
                     cuts.draw(axes, one, name, color=color, linewidth=1.1)
-            axes.set_title(f"{words['ylabel']}, {same[0].label}", fontsize=11)
-            figure.savefig(folder / f"cut{number + 1}_{name}.png", dpi=110)
+            axes.set_title(f"{words['ylabel']}, {label}", fontsize=11)
+            figure.savefig(folder / f"cut{number}_{name}.png", dpi=110)
             plt.close(figure)
-            out.append(Picture(folder / f"cut{number + 1}_{name}.png", f"{words['ylabel']} in the cut {same[0].label}"))
+            out.append(Picture(folder / f"cut{number}_{name}.png", f"{words['ylabel']} in the cut {label}"))
     return out

@@ -16,7 +16,8 @@ from sweep.errors import SweepError
 Value = bool | int | float | str | list
 DERIVATIVES, STEADY = "derivatives", "steady"  # methods; any other is a kind of motion
 BLOCK_KEYS = {
-    "label", "case", "mesh", "mesh_mach", "model", "method", "mach", "alpha", "beta", "alpha_t", "phi", "p", "q", "r", "deflection", "matrix", "ranks", "set"
+    "label", "case", "mesh", "mesh_mach", "model", "method", "mach", "alpha", "beta", "alpha_t", "phi", "p", "q", "r",
+    "deflection", "matrix", "ranks", "set"
 }  # fmt: skip
 SWEEP_KEYS = BLOCK_KEYS - {"label"} | {"title", "folder", "runs", "controls", "symmetry", "altitude", "unit", "mass", "cuts"}
 WITHOUT_EFFECT = ("checkpoint", "output")  # tables of the case that change no number
@@ -217,7 +218,8 @@ def check_cuts(path: Path, places: object) -> None:
     fins = places.get("fins", {}) if isinstance(places, dict) else None
     good = isinstance(fins, dict) and places.keys() <= {"x", "y", "fins"}
     if not good or not all(map(numbers, [*fins.values(), *(places.get(key, []) for key in "xy")])):
-        raise SweepError(f"{path}: cuts is like {{x = [0.5], y = [0], fins = {{fin_1 = [0.5]}}}}: places in the mesh's unit, and shares of spans")
+        example = "{x = [0.5], y = [0], fins = {fin_1 = [0.5]}}"
+        raise SweepError(f"{path}: cuts is like {example}: places in the mesh's unit, and shares of spans")
 
 
 def check_mass(path: Path, states: object) -> None:
@@ -233,7 +235,8 @@ def check_mass(path: Path, states: object) -> None:
 
 
 def without_images(runs: list[Run], planes: set[str]) -> list[Run]:
-    """Runs but for those that are the mirror image of another: tables have them from there. With controls deflected or in a turn there is none."""
+    """Runs but for those that are the mirror image of another: tables have them from there. With controls deflected or in a turn there is
+    none."""
     if not planes:
         return runs
 
@@ -325,9 +328,11 @@ def deflections_of(path: Path, case: Path, panels: dict[str, Value]) -> dict[str
     for name, degrees in panels.items():
         if name not in known and not content.get("mesh", {}).get("from"):
             own = ", ".join(map(str, known)) or "none"
-            raise SweepError(f"{path}: {case.name} is not a description with [[fins]] '{name}', nor has it such [[controls]]; there are {own}")
+            what = f"is not a description with [[fins]] '{name}', nor has it such [[controls]]"
+            raise SweepError(f"{path}: {case.name} {what}; there are {own}")
         if isinstance(degrees, list):
-            raise SweepError(f"{path}: {case.name} is a case file: [controls] gives degrees of its [[controls]] one by one, not {name} = {degrees}")
+            what = "is a case file: [controls] gives degrees of its [[controls]] one by one"
+            raise SweepError(f"{path}: {case.name} {what}, not {name} = {degrees}")
     return {f"deflections.{name}": degrees for name, degrees in panels.items()}
 
 

@@ -239,7 +239,9 @@ def loops(results: Results, folder: Path) -> str:
 
 def derivatives(results: Results, folder: Path) -> str:
     cross, zeros = tables.cross_tables(results)
-    shown = (tables.derivative_table(results), tables.side_table(results), cross, tables.control_table(results), tables.force_table(results))
+    shown = (
+        tables.derivative_table(results), tables.side_table(results), cross, tables.control_table(results), tables.force_table(results)
+    )  # fmt: skip
     note = f'<p class="note">Zero within their ± in every run: {escape(", ".join(zeros))}.</p>' if zeros else ""
     return "".join(write(table, folder) for table in shown if table.rows) + note
 
@@ -254,18 +256,23 @@ CUT = ("cp", "cp_alpha", "cp_q", "cp_alphadot", "cp_beta", "cp_betadot")  # what
 
 def pressure_cuts(results: Results, folder: Path) -> str:
     """Lines of the pressure and its derivatives where planes cut the body, a colour a flow; the sweep file's `cuts`, or the plane y = 0."""
-    shown = surface.flows(results)
+    shown = surface.flows(results, plain=True)
     places = results.sweep.content.get("cuts", {"y": [0.0]})
-    try:
-        found = {entry.run.name: cuts.wanted(surface.Surface.read(entry.run.folder / surface.FILE), places) for entry in shown}
-    except SweepError as error:
-        return f'<p class="note">{escape(str(error))}.</p>'
+    found: dict[str, list[cuts.Cut]] = {}
+    missing: dict[str, int] = {}
+    for entry in shown:
+        of = surface.Surface.read(entry.run.folder / surface.FILE)
+        own = {patch: shares for patch, shares in places.get("fins", {}).items() if patch in of.names}
+        found[entry.run.name] = cuts.wanted(of, places | {"fins": own})
+        for patch in places.get("fins", {}).keys() - own.keys():
+            missing[patch] = missing.get(patch, 0) + 1
     if not found:
         return ""
     cuts.write_csv(folder / "pressure_cuts.csv", results.sweep.title, found)
     colors = [plt.get_cmap("viridis")(0.9 * index / max(1, len(shown) - 1)) for index in range(len(shown))]
     keys = [page.Key(surface.title_of(entry), to_hex(color), "solid") for entry, color in zip(shown, colors)]
-    return page.legend(keys) + page.grid(figures.cut_figures(list(found.values()), CUT, colors, folder))
+    note = "".join(f'<p class="note">{count} of these flows have no patch {escape(patch)}.</p>' for patch, count in missing.items())
+    return page.legend(keys) + page.grid(figures.cut_figures(list(found.values()), CUT, colors, folder)) + note
 
 
 def unfinished(results: Results) -> str:

@@ -63,13 +63,13 @@ def has_surface(entry: Entry) -> bool:
 def seen_from_port(surface: Surface) -> np.ndarray:
     """The triangles that face an observer on the port side of the mirror image, the far ones first.
 
-    x runs to the right and z up. The half model is starboard; its mirror image looks the same from the other side.
+    x runs to the right and z up. The half model is starboard; its mirror image looks the same from the other side. Normals point into the
+    body.
     """
     points = surface.triangles
-    a, b = points[:, 1] - points[:, 0], points[:, 2] - points[:, 0]
-    edge_on = np.abs(np.cross(a, b)[:, 1]) < 1e-12
+    across = np.cross(points[:, 1] - points[:, 0], points[:, 2] - points[:, 0])[:, 1]
     order = np.argsort(points[:, :, 1].mean(axis=1))
-    return order[~edge_on[order]]
+    return order[across[order] < -1e-12]
 
 
 def draw(axes: plt.Axes, triangles: np.ndarray, **style: object) -> None:
@@ -83,14 +83,14 @@ def frame(axes: plt.Axes, points: np.ndarray) -> None:
     axes.set(xlim=(low[0] - margin, high[0] + margin), ylim=(low[1] - margin, high[1] + margin), aspect="equal")
 
 
-def flows(results: Results) -> list[Entry]:
+def flows(results: Results, plain: bool = False) -> list[Entry]:
     """One a case, of some: the method does not matter to a steady flow, so the first of each
     condition and mesh."""
     cases: dict[tuple, Entry] = {}
     for entry in sorted(results.entries, key=lambda entry: entry.run.is_motion):
         run = entry.run
         cases.setdefault((entry.mach, run.alpha, run.beta, tuple(run.rates.values()), tuple(run.deflections.values()), run.mesh), entry)
-    found = [cases[key] for key in sorted(cases) if has_surface(cases[key])]
+    found = [cases[key] for key in sorted(cases) if has_surface(cases[key]) and (cases[key].run.is_plain or not plain)]
     return found if len(found) <= MOST else [found[round(i * (len(found) - 1) / (MOST - 1))] for i in range(MOST)]
 
 
@@ -154,7 +154,7 @@ def mesh_pictures(results: Results, folder: Path) -> list[Picture]:
         low, high = surface.points.min(axis=0), surface.points.max(axis=0)
         reach = 0.15 * (high[0] - low[0])
         seen = surface.triangles[seen_from_port(surface)]
-        aft = seen[seen[:, :, 0].min(axis=1) > high[0] - 0.25 * (high[0] - low[0])]
+        aft = seen[seen[:, :, 0].max(axis=1) > high[0] - 0.25 * (high[0] - low[0])]
         pictures.append(draw_mesh(aft, f"mesh_surface_{mesh['hash']}", f"{label}; surface, aft quarter", folder, "#d8e2ec"))
         if (entry.run.folder / PLANE).exists():
             plane = Surface.read(entry.run.folder / PLANE, length).triangles

@@ -50,7 +50,7 @@ def show(cell: Cell, form: str) -> str:
         return "–"
     if isinstance(cell, str):
         return cell
-    return format(cell, form).replace("-", "−")  # a true minus sign
+    return format(cell, f"z{form}" if form[:1] == "." else form).replace("-", "−")  # a true minus sign, and none before zero
 
 
 def method_label(entry: Entry) -> str:
@@ -184,7 +184,7 @@ def control_table(results: Results) -> Table:
     joined = {4 + 2 * index for index in range(len(COEFFICIENTS))}
     formats = ["", ".4g", ".4g", *[".4g", ".1g"] * len(COEFFICIENTS), ""]
     caption = "Derivatives by deflections, per rad, and by their rates (dot)"
-    return Table("by_controls", caption, columns, sorted(rows, key=lambda row: row[0]), formats, joined=joined, hidden=idle | {len(columns) - 1})
+    return Table("by_controls", caption, columns, sorted(rows, key=lambda row: row[0]), formats, joined=joined, hidden=idle)
 
 
 def interference_table(results: Results) -> Table:
@@ -202,10 +202,10 @@ def interference_table(results: Results) -> Table:
             found = {row.name: row for row in interference(whole.run.folder, bare.run.folder)}
         except SweepError:
             continue  # of another reference: no pair
-        cells = [cell for name in names for cell in ([found[name].interference, found[name].uncertainty] if name in found else [None, None])]
+        cells = [getattr(found.get(name), value, None) for name in names for value in ("interference", "uncertainty")]
         rows.append([whole.mach, whole.run.alpha, *cells, whole.label, bare.label])
     columns = ["Mach", "alpha, deg", *(word for name in names for word in (name, "±")), "run", "body alone"]
-    caption = "Interference: the body in the presence of fins less the body alone, per rad; ± of the solves, without what the two meshes differ by"
+    caption = "Interference: the body in the presence of fins less the body alone, per rad; ± of the solves, not of the meshes"
     formats = [".4g", ".4g", *[".3f", ".1g"] * 2, *[".2f", ".1g"] * 4, "", ""]
     return Table("interference", caption, columns, rows, formats, joined=set(range(3, 14, 2)), hidden={14})
 

@@ -22,7 +22,7 @@ ABOUT = (
     "Angles in degrees; derivatives per radian, rates times length / 2V; NAME.uncertainty is a half width, the sum of NAME.<source>.",
     "CA aft, CN up, CY starboard; Cl, Cm, Cn about axes forward, starboard, down; about the moment centre (x_ref, y_ref, z_ref).",
     "alpha_t and phi: total incidence, and the roll angle of the cross-flow from below towards starboard. CN@PATCH: the part of a patch.",
-    "Of a control's panel by itself: CNp across its hinge, Ch about it, Cb of bending; x_cp, s_cp from the hinge's point, in the mesh's unit.",
+    "Of a control's panel by itself: CNp across its hinge, Ch about it, Cb of bending; x_cp, s_cp from the hinge's point, in mesh units.",
     "p, q, r: a steady turn, times length / 2V.",
     "image: planes in which the run is mirrored (its own symmetry), empty for a run itself. x_cp = x_ref - length Cm / CN.",
 )

@@ -277,7 +277,8 @@ def missing(label: str, plane: Plane, trims: list[Trim], wanted: Sequence[float]
         return [f"{at}: no trim within {inside}: Cm is {span(plane.values['Cm'].ravel())}"]
     forces = [trim.values["CN"] for trim in trims]
     reached = lambda target: any(math.isclose(force, target, rel_tol=1e-9, abs_tol=1e-12) for force in forces)
-    return [f"{at}: CN = {target:g} is not trimmed within what was computed: CN is {span(forces)}" for target in wanted if not reached(target)]
+    without = [target for target in wanted if not reached(target)]
+    return [f"{at}: CN = {target:g} is not trimmed within what was computed: CN is {span(forces)}" for target in without]
 
 
 def text(rows: list[dict], notes: list[str]) -> str:
@@ -286,7 +287,8 @@ def text(rows: list[dict], notes: list[str]) -> str:
     for label in dict.fromkeys(row["state"] for row in rows):
         head, values, forms = shown([row for row in rows if row["state"] == label])
         cells = [list(map(cell, own, forms)) for own in values]
-        out += [f"{label}: Cm = 0; derivatives per rad, margin in lengths, Ch of hinges", aligned([head[1:], *(own[1:] for own in cells)]), ""]
+        title = f"{label}: Cm = 0; derivatives per rad, margin in lengths, Ch of hinges"
+        out += [title, aligned([head[1:], *(own[1:] for own in cells)]), ""]
     return "\n".join([*out, *notes])
 
 
@@ -312,7 +314,7 @@ def write_csv(path: Path, rows: list[dict], notes: list[str]) -> None:
     names = [*NAMES, *hinge_names(rows)]
     with open(path, "w", newline="") as file:
         file.write("# Trim: Cm = 0 about each centre; degrees, derivatives per rad, rates times length / 2V, margin in lengths.\n")
-        file.write("# Bilinear between the angles computed; Ch@PANEL: hinge moment of a panel by itself; linear: from derivatives by the control.\n")
+        file.write("# Bilinear between the angles computed; Ch@PANEL: hinge moment of a panel; linear: from derivatives by the control.\n")
         file.writelines(f"# {note}\n" for note in notes)
         writer = csv.DictWriter(file, names, lineterminator="\n")
         writer.writeheader()

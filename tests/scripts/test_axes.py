@@ -137,8 +137,9 @@ class Axes(Workspace):
         head = HEAD + "[controls]\npitch = {flap_1 = 1, flap_2 = 1}\nroll = {flap_1 = 1, flap_2 = -1}\n"
         *_, run = self.runs("[[runs]]\nmach = 2\ndeflection = {pitch = [0, 2], roll = [0, 2]}\n", head)
         self.assertEqual((run.settings["deflections.flap_1"], run.settings.get("deflections.flap_2"), run.panels), (4.0, None, {}))
-        self.refused("[[runs]]\nmach = 2\ndeflection.pitch = 1\n", "flap_3", "flap_1, flap_2", head=HEAD + "[controls]\npitch = {flap_3 = 1}\n")
-        self.refused("[[runs]]\nmach = 2\ndeflection.pitch = 1\n", "one by one", head=HEAD + "[controls]\npitch = {flap_1 = [1, 1]}\n")
+        block = "[[runs]]\nmach = 2\ndeflection.pitch = 1\n"
+        self.refused(block, "flap_3", "flap_1, flap_2", head=HEAD + "[controls]\npitch = {flap_3 = 1}\n")
+        self.refused(block, "one by one", head=HEAD + "[controls]\npitch = {flap_1 = [1, 1]}\n")
 
     def test_steady_turns(self) -> None:
         runs = self.runs("[[runs]]\nmach = 2\nq = [0, 0.01]\nr = 0.002\n")

@@ -9,6 +9,7 @@ import unittest
 from html.parser import HTMLParser
 
 from stub_runs import finish
+from test_surface_loads import write_surface
 from test_table import model
 from workspace import HEAD, SCRIPTS, Workspace
 
@@ -108,8 +109,11 @@ class Report(Workspace):
             steady, derivatives = model(mach, alpha, beta)
             return steady, derivatives | {"Cl_alpha": 0.5, "CN_beta": 0.0, "CN_tail_pitch": 3.0, "CY_tail_pitch": 0.0}
 
-        self.write("[[runs]]\nmach = [1.5, 2]\nalpha = 2\n", HEAD_ALONE)
-        finish(read_sweep(self.file).runs, coupled)
+        self.write('[cuts]\nx = [0.5]\nfins = {"fin 1" = [0.5], none = [0.1]}\n[[runs]]\nmach = [1.5, 2]\nalpha = 2\n', HEAD_ALONE)
+        runs = read_sweep(self.file).runs
+        finish(runs, coupled)
+        for run in runs:
+            write_surface(run.folder / "surface.vtkhdf")
         self.sweep("report")
         text = (self.folder / "runs" / "report.html").read_text()
         self.assertIn("Zero within their ± in every run: CN_beta.", text)
@@ -119,6 +123,12 @@ class Report(Workspace):
         self.assertEqual([(row["Mach"], row["CN"]) for row in controls], [("1.5", "3.0"), ("2.0", "3.0")])
         part = text[text.index("Derivatives by deflections") :]
         self.assertIn("<td>3 ± 0.03</td>", part)
+        # Pictures of the surface, and where it is cut.
+        self.assertIn("2 of these flows have no patch none", text)
+        lines = (self.folder / "runs/report/pressure_cuts.csv").read_text().splitlines()
+        self.assertEqual({row["cut"] for row in csv.DictReader(lines[2:])}, {"x = 0.5", "fin 1 = 0.5"})
+        for name in ("cut1_cp.png", "cut2_cp_alpha.png", f"pressure_{runs[0].name}.png"):
+            self.assertTrue((self.folder / "runs/report" / name).exists(), name)
         self.assertNotIn("<th>CY</th>", part[: part.index("</table>")])
 
     def refers_to_nothing_outside(self, text: str) -> None:

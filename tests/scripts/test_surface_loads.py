@@ -84,7 +84,8 @@ class Cuts(unittest.TestCase):
             cuts.across_fin(self.surface, "fin_2", 0.5)
 
     def test_script(self) -> None:
-        command = [sys.executable, "-B", SCRIPTS / "pressure_cuts.py", self.folder, "--x", "0.7", "--fin", "fin 1=0.5", "--of", "cp,cp_alpha"]
+        command = [sys.executable, "-B", SCRIPTS / "pressure_cuts.py", self.folder, "--x", "0.7", "--fin", "fin 1=0.5"]
+        command += ["--of", "cp,cp_alpha"]
         done = subprocess.run([*command, "-o", self.folder / "cuts"], capture_output=True, text=True)
         self.assertEqual(done.returncode, 0, done.stderr)
         rows = list(csv.DictReader((self.folder / "cuts.csv").read_text().splitlines()[2:]))

@@ -22,7 +22,8 @@ def loads(mach: float, alpha: float, degrees: float) -> dict[str, float]:
     """Of everything, by degrees: a tail behind the centre, a canard before it whose wash takes part of the tail away."""
     a, d = alpha / 10, degrees / 10
     return {
-        "CN": (4 * a + 0.6 * d - 0.3 * a * d) / mach, "CA": 0.2 + 0.05 * a + 0.02 * a * d, "Cm": (-6 * a + 5 * d + 1.5 * a * d + 0.4) / mach,
+        "CN": (4 * a + 0.6 * d - 0.3 * a * d) / mach, "CA": 0.2 + 0.05 * a + 0.02 * a * d,
+        "Cm": (-6 * a + 5 * d + 1.5 * a * d + 0.4) / mach,
         "CN_alpha": 23 + 2 * a, "Cm_alpha": -34 + 9 * d, "Cm_q": -300 - 20 * a, "Cm_alphadot": -50 + 30 * a * d, "Ch": 0.1 * a + 0.3 * d,
     }  # fmt: skip
 
@@ -48,7 +49,8 @@ class Trim(Workspace):
     def rows(self) -> list[dict]:
         with open(self.folder / "runs/table/trim.csv") as file:
             rows = csv.DictReader(line for line in file if not line.startswith("#"))
-            return [{key: text if key in ("state", "control", "linear") else float(text or "nan") for key, text in row.items()} for row in rows]
+            value = lambda key, text: text if key in ("state", "control", "linear") else float(text or "nan")
+            return [{key: value(key, text) for key, text in row.items()} for row in rows]
 
     def test_everything_is_that_of_the_formulas(self) -> None:
         self.made()
@@ -87,7 +89,8 @@ class Trim(Workspace):
             leave(run, run.deflections["pitch"], {})
         said = self.sweep("trim")
         self.assertIn("no trim within alpha 4 to 10, deflection -5 to 0 degrees: Cm is", said)
-        self.assertIn("there is no control 'roll' in series 'derivatives'; there are pitch", self.sweep("trim", "--control", "roll", code=1))
+        said = self.sweep("trim", "--control", "roll", code=1)
+        self.assertIn("there is no control 'roll' in series 'derivatives'; there are pitch", said)
 
     def test_by_derivatives_alone(self) -> None:
         """Linear in the deflection up to what is said: Cm(alpha, 0) + Cm_elevator d; roll, which does not pitch, is not taken."""
