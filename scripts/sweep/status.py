@@ -39,13 +39,13 @@ def folder_size(folder: Path) -> int:
 
 def expected_size(run: Run) -> float | None:
     """Of a run that is not done, by the cells of its mesh; None where they are not known. Bytes as seen on rockets of 27,000 to 199,000
-    cells: a surface.vtkhdf takes 11 a cell, a flow.vtkhdf 76, the mesh file 52, all tables and texts some 60,000."""
+    cells: surface.vtkhdf and symmetry.vtkhdf take 12 a cell, a flow.vtkhdf 76, the mesh file 52, all tables and texts some 60,000."""
     file = mesh_file(run)
     if run.is_described:
         cells = LEVELS.get(run.mesh or "coarse", 0) * (2 if run.model == "full" else 1)
     else:
         cells = file.stat().st_size / 52 if file and file.exists() else LEVELS.get(run.mesh, 0)
-    return 6e4 + cells * (11 + 76 * bool(run.volume)) if cells else None
+    return 6e4 + cells * (12 + 76 * bool(run.volume)) if cells else None
 
 
 def disk_text(found: list[tuple[Run, State]]) -> str:
