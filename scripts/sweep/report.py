@@ -82,7 +82,8 @@ def headline(results: Results) -> list[tuple[str, str]]:
     else:
         out += balance(results)
     wall, processor = (sum(entry.result["performance"][key] or 0 for entry in results.entries) for key in ("wall_s", "cpu_s"))
-    runs = f"{len(results.entries)} runs on {results.entries[0].result['ranks']} ranks"
+    ranks = results.entries[0].result["ranks"]
+    runs = f"{len(results.entries)} runs on {ranks} rank{'s' if ranks > 1 else ''}"
     out.append((duration(processor), f"of processor for {runs}, {duration(wall)} on the wall"))
     return out
 
