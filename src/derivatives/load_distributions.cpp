@@ -36,6 +36,7 @@ LoadDistributions::LoadDistributions(FlowCase& flow, SensitivitySolver& solver, 
       asked.push_back(problem_of({variable}, flow, responses));
       solutions.emplace_back(responses.at({variable}).field);
     }
+    problems.reserve(asked.size());
     for (const auto& one : asked) problems.push_back(one.problem);
     const auto found = solver.face_loads(problems, solutions);
     for (std::size_t i = 0; i < group.size(); ++i) {

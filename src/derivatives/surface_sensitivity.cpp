@@ -1,9 +1,8 @@
 #include "derivatives/surface_sensitivity.hpp"
 
 #include <algorithm>
-#include <numeric>
 
-#include "partition/delivery.hpp"
+#include "partition/point_sums.hpp"
 
 namespace alphadot {
 
@@ -13,10 +12,16 @@ bool is_wall(BoundaryKind kind) {
   return kind == BoundaryKind::wall || kind == BoundaryKind::sting;
 }
 
-/// A point of the mesh with what is to be summed over the ranks that know it.
+/// What is to be summed at a point over the ranks that know it.
 struct PointPart {
-  SurfaceSensitivity::Point point;
+  Vec3 derivative;
   Real area;  ///< of walls around it
+
+  PointPart& operator+=(const PointPart& b) {
+    derivative += b.derivative;
+    area += b.area;
+    return *this;
+  }
 };
 
 /// This rank's, [points].
@@ -24,43 +29,12 @@ std::vector<PointPart> parts_of(const Discretization& discretization, std::span<
   const Subdomain& domain = discretization.domain();
   std::vector<PointPart> out;
   out.reserve(by_points.size());
-  for (std::size_t i = 0; i < by_points.size(); ++i)
-    out.push_back({{domain.point_ids[i], domain.points[static_cast<Index>(i)], by_points[i]}, 0});
+  for (const Vec3& derivative : by_points) out.push_back({derivative, 0});
   for (std::size_t i = 0; i < domain.boundary_faces.size(); ++i)
     if (const auto& face = domain.boundary_faces[i]; is_wall(discretization.kind_of(face)))
       for (const Index point : face.points)
         out[static_cast<std::size_t>(point)].area += norm(domain.boundary_normal[i]) / 3;
   return out;
-}
-
-/// Replaces parts by sums over ranks. Every point has a rank where they are made. Returns those on walls that
-/// this rank has made, each once.
-std::vector<SurfaceSensitivity::Point> sum_over_ranks(std::vector<PointPart>& parts,
-                                                      const Communicator& comm) {
-  const auto addressed = address(
-      parts.size(), [&](std::size_t i) { return static_cast<int>(parts[i].point.id % comm.size()); }, comm);
-  std::vector<PointPart> sent;
-  sent.reserve(parts.size());
-  for (const Index i : addressed.order) sent.push_back(parts[static_cast<std::size_t>(i)]);
-  auto [here, counts] = deliver<PointPart>(sent, addressed.counts, comm);
-  std::vector<std::size_t> order(here.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::ranges::stable_sort(order, {}, [&](std::size_t i) { return here[i].point.id; });
-  std::vector<SurfaceSensitivity::Point> made;
-  for (auto first = order.begin(); first != order.end();) {
-    auto total = here[*first];
-    auto last = first + 1;
-    for (; last != order.end() && here[*last].point.id == total.point.id; ++last) {
-      total.point.derivative += here[*last].point.derivative;
-      total.area += here[*last].area;
-    }
-    for (; first != last; ++first) here[*first] = total;
-    if (total.area > 0) made.push_back(total.point);
-  }
-  const auto answers = deliver<PointPart>(here, counts, comm).items;
-  for (std::size_t i = 0; i < answers.size(); ++i)
-    parts[static_cast<std::size_t>(addressed.order[i])] = answers[i];
-  return made;
 }
 
 }  // namespace
@@ -69,19 +43,24 @@ SurfaceSensitivity::SurfaceSensitivity(const Discretization& discretization, con
                                        std::span<const Vec3> by_points)
     : density_(discretization.domain().boundary_faces.size()) {
   const Subdomain& domain = discretization.domain();
-  auto parts = parts_of(discretization, by_points);
-  const auto made = sum_over_ranks(parts, comm);
+  const auto ids = std::span(domain.point_ids).first(by_points.size());
+  const auto sums = sum_at_points<PointPart>(ids, parts_of(discretization, by_points), comm);
   for (std::size_t face = 0; face < domain.boundary_faces.size(); ++face) {
     if (!is_wall(discretization.kind_of(domain.boundary_faces[face]))) continue;
     for (const Index point : domain.boundary_faces[face].points) {
-      const auto& [at, area] = parts[static_cast<std::size_t>(point)];
-      density_[face] += (1 / (3 * area)) * at.derivative;
+      const auto& at = sums[static_cast<std::size_t>(point)];
+      density_[face] += (1 / (3 * at.area)) * at.derivative;
     }
   }
+  std::vector<Point> on_walls;
+  for (std::size_t i = 0; i < sums.size(); ++i)
+    if (sums[i].area > 0) on_walls.push_back({ids[i], domain.points[i], sums[i].derivative});
   points_ = deliver_to<Point>(
-                made, [](const Point&) { return 0; }, comm)
+                on_walls, [](const Point&) { return 0; }, comm)
                 .items;
-  std::ranges::sort(points_, {}, &Point::id);
+  std::ranges::stable_sort(points_, {}, &Point::id);
+  const auto again = std::ranges::unique(points_, {}, &Point::id);  // a point has a copy a rank that knows it
+  points_.erase(again.begin(), again.end());
 }
 
 }  // namespace alphadot
