@@ -276,6 +276,7 @@ void Group::write_texts(const std::string& name, const std::vector<std::string>&
   const Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
   check(H5Tset_size(type.id(), H5T_VARIABLE), file_, "cannot write " + inside(name));
   std::vector<const char*> pointers;
+  pointers.reserve(texts.size());
   for (const auto& text : texts) pointers.push_back(text.c_str());
   const Dataset target =
       add_dataset(name, type.id(),

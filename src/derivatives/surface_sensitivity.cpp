@@ -59,8 +59,9 @@ SurfaceSensitivity::SurfaceSensitivity(const Discretization& discretization, con
                 on_walls, [](const Point&) { return 0; }, comm)
                 .items;
   std::ranges::stable_sort(points_, {}, &Point::id);
-  const auto again = std::ranges::unique(points_, {}, &Point::id);  // a point has a copy a rank that knows it
-  points_.erase(again.begin(), again.end());
+  // A point has a copy of each rank that knows it.
+  const auto is_copy = [](const Point& a, const Point& b) { return a.id == b.id; };
+  points_.erase(std::unique(points_.begin(), points_.end(), is_copy), points_.end());
 }
 
 }  // namespace alphadot
