@@ -55,7 +55,8 @@ TEST_F(MeshReader, RefusesWhatIsNoKnownMesh) {
   expect_parts(error_in(write("a.grid", "1 2 3")), {"a.grid: ", "extension", known});
   expect_parts(error_in(write("a.msh", "")), {"does not begin with a section", known});
   expect_parts(error_in(write("b.msh", "mesh of two cells")), {"does not begin with a section", known});
-  expect_parts(error_in(write("a.ugrid", test::ugrid(Encoding::big_endian))), {"big-endian", "extension .b8.ugrid"});
+  expect_parts(error_in(write("a.ugrid", test::ugrid(Encoding::big_endian))),
+               {"big-endian", "extension .b8.ugrid"});
   expect_parts(error_in(write("a.su2", gmsh)), {"is a Gmsh file", known});
   expect_parts(error_in(write("a.b8.ugrid", gmsh)), {"is a Gmsh file", known});
   expect_parts(error_in(write("b.su2", test::ugrid(Encoding::big_endian))), {"is binary", known});
