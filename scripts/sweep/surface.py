@@ -97,6 +97,7 @@ def flows(results: Results, plain: bool = False) -> list[Entry]:
 def pressure_pictures(results: Results, folder: Path) -> tuple[Path | None, list[Picture]]:
     """The bar of colours of them all, and one a flow."""
     shown = [(entry, Surface.read(entry.run.folder / FILE, entry.result["reference"]["length"])) for entry in flows(results)]
+    shown = [(entry, surface) for entry, surface in shown if len(seen_from_port(surface))]  # of a section there is nothing to see
     if not shown:
         return None, []
     limits = np.percentile(np.concatenate([surface.values["cp"] for _, surface in shown]), (0.5, 99.5))
@@ -155,7 +156,8 @@ def mesh_pictures(results: Results, folder: Path) -> list[Picture]:
         reach = 0.15 * (high[0] - low[0])
         seen = surface.triangles[seen_from_port(surface)]
         aft = seen[seen[:, :, 0].max(axis=1) > high[0] - 0.25 * (high[0] - low[0])]
-        pictures.append(draw_mesh(aft, f"mesh_surface_{mesh['hash']}", f"{label}; surface, aft quarter", folder, "#d8e2ec"))
+        if len(aft):
+            pictures.append(draw_mesh(aft, f"mesh_surface_{mesh['hash']}", f"{label}; surface, aft quarter", folder, "#d8e2ec"))
         if (entry.run.folder / PLANE).exists():
             plane = Surface.read(entry.run.folder / PLANE, length).triangles
             across = plane[:, :, [0, 2]]
