@@ -32,7 +32,8 @@ std::vector<Plate> plates_of(const Configuration& configuration, const std::vect
   };
   std::vector<Plate> out;
   std::vector<std::string> taken;  // a wall in several sets counts in the first
-  for (const auto& [unused, set] : components) {
+  for (const auto& component : components) {
+    const auto& set = component.second;
     out.push_back(plate_of(configuration, names,
                            [&](const std::string& name) { return is_in(set, name) && !is_in(taken, name); }));
     taken.insert(taken.end(), set.begin(), set.end());
