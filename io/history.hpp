@@ -28,7 +28,9 @@ struct HistoryInfo {
       "mesh axes x aft, y starboard, z up; CA CY CN along them over q S; Cl Cm Cn over q S length about body "
       "axes x forward, y starboard, z down (nose up, nose to starboard positive); angles in rad; t_star = 2 "
       "V t / "
-      "length; rates times length / (2 V)";
+      "length; rates times length / (2 V); x y z is the way of the centre of gravity over length, e0 e1 e2 "
+      "e3 the "
+      "quaternion from the axes at rest to those of the body, energy and work are over q S length";
 
   Origin origin() const { return {freestream, mesh_file, mesh_hash, version}; }
 };

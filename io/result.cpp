@@ -48,7 +48,7 @@ Json json_of(const Result& r) {
   const Vec3& center = r.reference.moment_center;
   const auto& performance = r.performance;
   const auto& source = r.provenance;
-  return {
+  Json out = {
       {"status", to_string(r.status)},
       {"message", r.message},
       {"not_reached", r.not_reached},
@@ -113,6 +113,8 @@ Json json_of(const Result& r) {
         {"date", source.date}}},
       {"motion_table_hash", r.motion_table_hash},
       {"case", r.case_text}};
+  if (!r.decay.empty()) out["decay"] = json_of(r.decay);
+  return out;
 }
 
 }  // namespace

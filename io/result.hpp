@@ -96,6 +96,7 @@ struct Result {
   std::map<std::string, EstimateResult> estimates;  ///< by name: of CA, beside the forces
   std::map<std::string, DerivativeResult> derivatives;  ///< by name, "Cm_alphadot"; per radian
   std::string uncertainty;   ///< what those of the derivatives hold; empty: there are none
+  NamedValues decay;         ///< of a free flight: its frequency and damping; may be empty
   NamedValues longitudinal;  ///< static margin, neutral point, limits of quasi-steady flight; may be empty
   PerformanceResult performance;
   Provenance provenance;

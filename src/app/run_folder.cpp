@@ -60,7 +60,7 @@ constexpr Output outputs[] = {{result_name, ""},
 bool is_written(const Output& output, const std::string& verb, const Case& settings) {
   if (output.verb.empty()) return true;
   if (output.verb != verb) return false;
-  if (verb == "run") return settings.motion.kind != MotionKind::none;
+  if (verb == "run") return goes_on_in_time(settings);
   for (std::size_t number : {2, 3})
     if (output.name == fmt::format("mesh_{}", number))
       return settings.derivatives.coarser_meshes.size() + 1 >= number;
@@ -100,7 +100,7 @@ std::vector<std::string> other_than(const nlohmann::json& result, const Setup& s
   if (const auto hash = text_of(result.at("mesh"), "hash"); hash != setup.mesh.hash)
     out.push_back(fmt::format("it is of another mesh, {} with hash {}", before.mesh.file, hash));
   const bool has_motion =
-      text_of(result, "verb") == "run" && verb == "run" && before.motion.kind != MotionKind::none;
+      text_of(result, "verb") == "run" && verb == "run" && goes_on_in_time(before);
   for (const auto& [key, there, here] :
        differences(before, setup.settings, has_motion ? Shared::motion : Shared::flow))
     out.push_back(fmt::format("its {} is {}, not {}", key, there, here));

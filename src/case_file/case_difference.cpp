@@ -10,11 +10,13 @@ namespace {
 
 /// Tables end with a dot.
 constexpr std::string_view always_free[] = {
-    "title",      "mesh.file",    "mesh.from",   "mesh.level",    "output.",         "checkpoint.",
-    "estimates.", "derivatives.", "components.", "control_sets.", "unsteady.cycles", "motion.table_file"};
+    "title",           "mesh.file",         "mesh.from",      "mesh.level",  "output.",
+    "checkpoint.",     "estimates.",        "derivatives.",   "components.", "control_sets.",
+    "unsteady.cycles", "motion.table_file", "gust.table_file"};
 constexpr std::string_view free_in_motion[] = {"steady.", "unsteady.inner_tolerance", "unsteady.max_inner"};
-constexpr std::string_view free_in_flow[] = {"motion.kind", "motion.treatment", "motion.amplitude",
-                                             "motion.reduced_frequency", "unsteady."};
+constexpr std::string_view free_in_flow[] = {
+    "motion.kind", "motion.treatment", "motion.amplitude", "motion.reduced_frequency", "unsteady.", "body.",
+    "gust."};
 
 template <class Keys>
 bool names(const Keys& keys, const std::string& path) {

@@ -17,6 +17,7 @@
 #include "io/files.hpp"
 #include "io/history.hpp"
 #include "io/toml_text.hpp"
+#include "motion/rigid_body.hpp"
 
 namespace alphadot {
 namespace {
@@ -289,18 +290,71 @@ class CaseReader {
       complain_about({"motion.kind"}, motion + " needs a full model", "set reference.model = \"full\"");
     if (kind == MotionKind::table && c.motion.table_file.empty())
       complain_about({"motion.kind"}, motion + " needs motion.table_file");
-    if (kind != MotionKind::none && norm(c.motion.rotation) != 0)
+    if (kind != MotionKind::none && kind != MotionKind::free && norm(c.motion.rotation) != 0)
       complain_about({"motion.rotation"}, "a steady rotation excludes " + motion, "leave out either of them");
     if (c.reference.half_model && (c.motion.rotation.x != 0 || c.motion.rotation.z != 0))
       complain_about({"motion.rotation"}, "a half model can only rotate in pitch",
                      "set reference.model = \"full\"");
     const bool has_duration = kind == MotionKind::step_alpha || kind == MotionKind::ramp_alpha ||
-                              kind == MotionKind::step_q || kind == MotionKind::table;
+                              kind == MotionKind::step_q || kind == MotionKind::table ||
+                              kind == MotionKind::free;
     if (has_duration && c.unsteady.duration <= 0)
       complain_about({"unsteady.duration", "motion.kind"}, motion + " needs unsteady.duration > 0");
-    if (kind == MotionKind::table && c.unsteady.steps < 1)
+    if ((kind == MotionKind::table || kind == MotionKind::free) && c.unsteady.steps < 1)
       complain_about({"unsteady.steps", "motion.kind"}, motion + " needs unsteady.steps >= 1");
+    if (kind == MotionKind::free) check_body(c);
+    check_gust(c);
     check_derivatives(c);
+  }
+
+  /// A body that flies freely has inertia where it may move, and loads that move it.
+  void check_body(const Case& c) {
+    const auto& free = c.body.free;
+    const auto properties = properties_of(c.body, 1, 1);
+    if (free.empty())
+      complain_about({"body.free", "motion.kind"}, "motion.kind = \"free\" needs body.free",
+                     "name what the body may do: free = [\"pitch\"]");
+    if (c.motion.treatment != TreatmentKind::field_velocity)
+      complain_about({"motion.treatment"}, "a body flies freely by field velocity only",
+                     "leave out motion.treatment");
+    for (const FreedomKind freedom : {FreedomKind::sway, FreedomKind::roll, FreedomKind::yaw})
+      if (c.reference.half_model && std::ranges::find(free, freedom) != free.end())
+        complain_about({"body.free"}, "a half model has no " + word_of(freedom),
+                       "set reference.model = \"full\"");
+    if (properties.moves != std::array<bool, 3>{} && !(c.body.mass > 0))
+      complain_about({"body.mass", "body.free"}, "a body that may move along an axis needs body.mass > 0");
+    if (!has_inertia(properties))
+      complain_about(
+          {"body.inertia", "body.free"},
+          "body.inertia and body.products are not those of a mass about the axes that may turn",
+          "each free axis needs a moment > 0, and a product no larger than the mean of two moments");
+    for (int axis = 0; axis < 3; ++axis)
+      if (c.motion.rotation[axis] != 0 && !properties.turns[static_cast<std::size_t>(axis)])
+        complain_about({"motion.rotation"}, "motion.rotation turns the body about an axis that is held",
+                       "name roll, pitch or yaw in body.free");
+  }
+
+  void check_gust(const Case& c) {
+    const auto& gust = c.gust;
+    if (gust.kind == GustKind::none) return;
+    const std::string name = "gust.kind = " + toml_string(word_of(gust.kind));
+    if (c.motion.kind != MotionKind::none && c.motion.kind != MotionKind::free)
+      complain_about({"gust.kind"}, name + " meets a body that is held or flies freely",
+                     "set motion.kind = \"none\" or \"free\"");
+    if (c.motion.treatment != TreatmentKind::field_velocity)
+      complain_about({"motion.treatment"}, "gusts are field velocities", "leave out motion.treatment");
+    if (c.motion.kind == MotionKind::none && norm(c.motion.rotation) != 0)
+      complain_about({"motion.rotation"}, name + " meets a body that does not turn before",
+                     "leave out motion.rotation");
+    if (c.reference.half_model && gust.direction == GustDirection::starboard)
+      complain_about({"gust.direction"}, "a half model has no gust from the side",
+                     "set reference.model = \"full\"");
+    if (gust.kind == GustKind::table && gust.table_file.empty())
+      complain_about({"gust.kind"}, name + " needs gust.table_file");
+    if (c.unsteady.duration <= 0)
+      complain_about({"unsteady.duration", "gust.kind"}, name + " needs unsteady.duration > 0");
+    if (c.unsteady.steps < 1)
+      complain_about({"unsteady.steps", "gust.kind"}, name + " needs unsteady.steps >= 1");
   }
 
   /// A motion that runs to its end must yield derivatives.
@@ -315,6 +369,7 @@ class CaseReader {
     switch (c.motion.kind) {
       case MotionKind::none:
       case MotionKind::table:
+      case MotionKind::free:
         return;
       case MotionKind::step_alpha:
       case MotionKind::step_q:
@@ -341,7 +396,7 @@ class CaseReader {
 
   /// Defaults that depend on other keys, and absolute paths.
   void fill_in(Case& c) const {
-    std::vector<std::string*> files{&c.mesh.file, &c.mesh.from, &c.motion.table_file};
+    std::vector<std::string*> files{&c.mesh.file, &c.mesh.from, &c.motion.table_file, &c.gust.table_file};
     for (auto& file : c.derivatives.coarser_meshes) files.push_back(&file);
     for (auto* file : files)
       if (!file->empty()) *file = fs::absolute(fs::path(path_).parent_path() / *file).lexically_normal();

@@ -236,8 +236,38 @@ std::vector<CaseKey> make_keys() {
       .default_is("reference.moment_center")
       .key("table_file", &MotionSettings::table_file, TextValue{.may_be_empty = true},
            "for kind = \"table\", relative to the folder of the case file")
-      .key("rotation", &MotionSettings::rotation, VectorValue{.from = -10, .to = 10},
-           "for kind = \"none\": steady rotation (p, q, r) * length / (2 V) at constant incidence");
+      .key(
+          "rotation", &MotionSettings::rotation, VectorValue{.from = -10, .to = 10},
+          "(p, q, r) * length / (2 V): for kind = \"none\" steady rotation at constant incidence, for kind = "
+          "\"free\" that at the release");
+
+  const auto per_mass = NumberValue{.from = 0, .to = 1e30};
+  const auto inertias = VectorValue{.from = 0, .to = 1e30};
+  Table(keys, "body", &Case::body)
+      .key(
+          "free", &BodySettings::free, WordsValue{words_of<FreedomKind>},
+          "for motion.kind = \"free\": what the body may do, along axes at rest (x, y, z) and about its own; "
+          "all else is held")
+      .key("mass", &BodySettings::mass, per_mass,
+           "over rho length^3, rho the stream's density; of the whole body, also for a half model")
+      .key("inertia", &BodySettings::inertia, inertias,
+           "moments about the mesh axes through the centre of gravity, motion.axis_point; over rho length^5")
+      .key("products", &BodySettings::products, VectorValue{.from = -1e30, .to = 1e30},
+           "of inertia, integrals of x y, x z and y z over the mass, likewise")
+      .key("gravity", &BodySettings::gravity, VectorValue{.from = -1e6, .to = 1e6},
+           "acceleration along the mesh axes at the release, times length / V^2");
+
+  Table(keys, "gust", &Case::gust)
+      .key("kind", &GustSettings::kind, WordValue{words_of<GustKind>},
+           "air that moves across the stream, in fronts normal to x, over the distance behind the first")
+      .key("velocity", &GustSettings::velocity, NumberValue{.from = -1, .to = 1}, "its largest, over V")
+      .key("length", &GustSettings::length, length, "of one_minus_cosine, and one wave of harmonic")
+      .key("front", &GustSettings::front, NumberValue{.from = -1e9, .to = 1e9}, "x of its front at t = 0")
+      .key("speed", &GustSettings::speed, NumberValue{.from = 0, .to = 10},
+           "at which its pattern comes, over the stream's: 1 is at rest in the air, 0 stands")
+      .key("direction", &GustSettings::direction, WordValue{words_of<GustDirection>}, "of the moving air")
+      .key("table_file", &GustSettings::table_file, TextValue{.may_be_empty = true},
+           "for kind = \"table\", columns distance and velocity, relative to the folder of the case file");
 
   Table(keys, "unsteady", &Case::unsteady)
       .key("cycles", &UnsteadySettings::cycles, NumberValue{.from = 0.01, .to = 1e6},
@@ -245,7 +275,7 @@ std::vector<CaseKey> make_keys() {
       .key("steps_per_cycle", &UnsteadySettings::steps_per_cycle, IntegerValue{.from = 4, .to = 1'000'000},
            "time steps a cycle")
       .key("duration", &UnsteadySettings::duration, NumberValue{.from = 0, .to = 1e9},
-           "t* = 2 V t / length of a step, ramp or table")
+           "t* = 2 V t / length of a step, ramp, table, gust or free flight")
       .key("steps", &UnsteadySettings::steps, none_or_more, "number of time steps in the duration")
       .key("inner_tolerance", &UnsteadySettings::inner_tolerance, NumberValue{.from = 1e-14, .to = 1},
            "change of the out-of-phase moment between inner iterations, relative to it")

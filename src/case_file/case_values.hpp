@@ -4,6 +4,7 @@
 
 #include <toml++/toml.h>
 
+#include <algorithm>
 #include <map>
 #include <optional>
 #include <span>
@@ -135,6 +136,35 @@ struct WordValue {
 };
 template <class E>
 WordValue(std::span<const Word<E>>) -> WordValue<E>;
+
+/// Several of a list of words, each once.
+template <class E>
+struct WordsValue {
+  static constexpr bool is_text = false;
+  std::span<const Word<E>> words;
+
+  std::string type() const { return "a list of " + WordValue<E>{words}.type(); }
+  MaybeProblem read(const toml::node& node, std::vector<E>& value) const {
+    const auto* list = node.as_array();
+    if (!list) return wrong_value(type(), node);
+    value.clear();
+    for (const auto& entry : *list) {
+      E found{};
+      if (auto problem = WordValue<E>{words}.read(entry, found)) return problem;
+      if (std::ranges::find(value, found) != value.end())
+        return Problem{"", 0, "names " + toml_string(word_of(found)) + " twice", "name each once"};
+      value.push_back(found);
+    }
+    return std::nullopt;
+  }
+  std::string write(const std::vector<E>& value) const {
+    std::string out;
+    for (const E one : value) out += (out.empty() ? "" : ", ") + toml_string(word_of(one));
+    return "[" + out + "]";
+  }
+};
+template <class E>
+WordsValue(std::span<const Word<E>>) -> WordsValue<E>;
 
 /// A key whose value lives at `at(case)`.
 template <class At, class ValueType>

@@ -87,6 +87,8 @@ struct Case : FlightCondition {
   std::map<std::string, std::map<std::string, Real>> control_sets;
   std::map<std::string, Real> deflections;    ///< of controls in the steady flow, degrees
   std::map<std::string, int> boundary_lines;  ///< where the case file names the patches, for messages
+  BodySettings body;
+  GustSettings gust;
   SpaceSettings space;
   SteadySettings steady;
   UnsteadySettings unsteady;
@@ -95,5 +97,10 @@ struct Case : FlightCondition {
   OutputSettings output;
   CheckpointSettings checkpoint;
 };
+
+/// Whether a run goes on in time from the steady flow.
+inline bool goes_on_in_time(const Case& c) {
+  return c.motion.kind != MotionKind::none || c.gust.kind != GustKind::none;
+}
 
 }  // namespace alphadot

@@ -95,6 +95,7 @@ Extraction extract_derivatives(const History& history) {
   switch (motion.kind) {
     case MotionKind::none:
     case MotionKind::table:
+    case MotionKind::free:
       return {};
     case MotionKind::step_alpha: {
       const Real angle = motion.amplitude * radians_per_degree;
@@ -120,6 +121,22 @@ Extraction extract_derivatives(const History& history) {
       break;
   }
   return harmonic_extraction(history, {.reduced_frequency = motion.reduced_frequency});
+}
+
+Extraction extract_from_flight(const History& history, const BodySettings& body) {
+  const auto is_free = [&](FreedomKind kind) {
+    return std::ranges::find(body.free, kind) != body.free.end();
+  };
+  const bool pitches = is_free(FreedomKind::pitch);
+  if (!pitches && !is_free(FreedomKind::yaw)) return {};
+  Extraction out;
+  const auto& time = history.column("t_star");
+  out.decay = fit_decay(time, history.column(pitches ? "alpha" : "beta"), time[1] - time[0]);
+  if (pitches && body.free.size() == 1) {
+    out.estimated = free_pitch_derivatives(force_history(history, 0), history.column("q"), *out.decay);
+    out.method = fmt::format("free pitch, k = {:.4g}", out.decay->frequency.value);
+  }
+  return out;
 }
 
 std::pair<std::size_t, std::size_t> fitted_rows(const History& history) {

@@ -155,7 +155,21 @@ Conditions<Real> FlowCase::conditions() const {
 
 std::unique_ptr<Treatment> FlowCase::treatment(Real time_step) {
   return make_treatment(settings().motion.treatment, motion_, settings().motion.axis_point, time_step,
-                        setup_.domain, discretization_, comm_);
+                        setup_.domain, discretization_, comm_, gust());
+}
+
+std::unique_ptr<GustField> FlowCase::gust() const {
+  if (settings().gust.kind == GustKind::none) return nullptr;
+  return std::make_unique<GustField>(Gust(settings().gust, settings().freestream.mach, setup_.gust_table),
+                                     discretization_);
+}
+
+std::unique_ptr<FreeFlight> FlowCase::free_flight(Real time_step) const {
+  const auto& reference = settings().reference;
+  const RigidBody body(properties_of(settings().body, reference.length, settings().freestream.mach));
+  return std::make_unique<FreeFlight>(body, motion_, settings().motion.axis_point, time_step, discretization_,
+                                      gust(), reference.moment_center, reference.half_model,
+                                      steady_report_.total);
 }
 
 RunStatus FlowCase::march(const Observer& observer) {

@@ -12,6 +12,7 @@
 #include "analysis/panel.hpp"
 #include "derivatives/setup.hpp"
 #include "march/deflection.hpp"
+#include "march/free_flight.hpp"
 #include "march/steady.hpp"
 #include "march/treatment.hpp"
 #include "motion/motion.hpp"
@@ -50,6 +51,8 @@ class FlowCase {
   Conditions<Real> conditions() const;
   /// The case's way to let the motion enter the equations; moves this case's mesh. Collective.
   std::unique_ptr<Treatment> treatment(Real time_step);
+  /// Of a body released from the steady flow.
+  std::unique_ptr<FreeFlight> free_flight(Real time_step) const;
 
   /// Asked after every iteration; false ends the march.
   using Observer = std::function<bool(const SteadyProgress&)>;
@@ -78,6 +81,7 @@ class FlowCase {
   const std::optional<std::string>& shortfall() const { return shortfall_; }
 
  private:
+  std::unique_ptr<GustField> gust() const;
   void make_lee_dissipative();
   void deflect_controls();
 

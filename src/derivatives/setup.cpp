@@ -96,7 +96,7 @@ MotionTable table_of(const Case& settings, const std::string& text) {
 struct CaseFiles {
   bool mesh_is_prepared = false;
   MeshOfFile mesh;  ///< unless it is prepared
-  std::string mesh_hash, table_text;
+  std::string mesh_hash, table_text, gust_text;
   std::vector<Problem> problems;
 };
 
@@ -130,6 +130,11 @@ CaseFiles read_files(const Case& settings, bool is_faulty) {
     collect(out.problems, [&] {
       out.table_text = read_file(settings.motion.table_file, "table of a motion", largest_table);
       table_of(settings, out.table_text);
+    });
+  if (settings.gust.kind == GustKind::table && !settings.gust.table_file.empty())
+    collect(out.problems, [&] {
+      out.gust_text = read_file(settings.gust.table_file, "table of a gust", largest_table);
+      parse_gust_table(out.gust_text, settings.gust.table_file);
     });
   if (is_faulty || !out.problems.empty())
     for (const auto& file : settings.derivatives.coarser_meshes) {
@@ -176,8 +181,13 @@ Setup load_setup(const Case& settings, const Communicator& comm) {
   if (settings.motion.kind == MotionKind::table) {
     files.table_text = comm.broadcast(files.table_text);
     comm.on_all([&] { out.motion_table = table_of(settings, files.table_text); });
-    out.motion_table_hash = content_hash(files.table_text);
   }
+  if (settings.gust.kind == GustKind::table) {
+    files.gust_text = comm.broadcast(files.gust_text);
+    comm.on_all([&] { out.gust_table = parse_gust_table(files.gust_text, settings.gust.table_file); });
+  }
+  if (const std::string text = files.table_text + files.gust_text; !text.empty())
+    out.motion_table_hash = content_hash(text);
   out.configuration = survey(out.domain, out.patch_kinds, settings, comm);
   comm.on_all([&] {
     auto [problems, warnings] = judge(out.configuration, out.domain.patch_names, out.patch_kinds, settings,

@@ -8,6 +8,7 @@
 #include "core/error.hpp"
 #include "derivatives/case.hpp"
 #include "io/result.hpp"
+#include "motion/gust.hpp"
 #include "motion/motion_table.hpp"
 #include "partition/subdomain.hpp"
 #include "space/configuration.hpp"
@@ -29,8 +30,9 @@ struct Setup {
   ReadingMemory memory;
   std::vector<BoundaryKind> patch_kinds;  ///< of every patch of the mesh, in its order
   Configuration configuration;
-  MotionTable motion_table;  ///< for motion.kind = "table"
-  std::string motion_table_hash;
+  MotionTable motion_table;           ///< for motion.kind = "table"
+  GustTable gust_table;               ///< for gust.kind = "table"
+  std::string motion_table_hash;      ///< of either, or both
   std::vector<std::string> warnings;  ///< what is improbable about the case with this mesh
 };
 

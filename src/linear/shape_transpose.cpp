@@ -12,7 +12,7 @@
 #include "space/forces_transpose.hpp"
 #include "space/gradient.hpp"
 #include "space/limiter.hpp"
-#include "space/symmetric3.hpp"
+#include "core/symmetric3.hpp"
 
 namespace alphadot {
 

@@ -7,9 +7,9 @@
 #include <cstdint>
 #include <limits>
 
+#include "core/symmetric3.hpp"
 #include "march/blend.hpp"
 #include "space/flow_field.hpp"
-#include "space/symmetric3.hpp"
 
 namespace alphadot {
 

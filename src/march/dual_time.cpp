@@ -71,10 +71,8 @@ FlowReport DualTime::report() const {
 }
 
 Real DualTime::moment_scale(const StepReport& step, Real amplitude) {
-  const int axis = motion_.moment_axis();
   state_.largest_angle = std::max(state_.largest_angle, std::abs(motion_.driven_angle(step.attitude)));
-  state_.largest_moment =
-      std::max(state_.largest_moment, std::abs(step.report.total.moment[axis] - initial_.moment[axis]));
+  state_.largest_moment = std::max(state_.largest_moment, treatment_->size_of(step.report.total - initial_));
   return amplitude > 0 && state_.largest_angle > 0 ? state_.largest_moment * amplitude / state_.largest_angle
                                                    : state_.largest_moment;
 }
@@ -89,7 +87,7 @@ void DualTime::keep_levels(const Vec3& axes) {
 
 StepReport DualTime::before() const {
   StepReport out;
-  out.attitude = motion_.at(-1);
+  out.attitude = treatment_->attitude(0);
   out.report = report();
   return out;
 }
@@ -108,11 +106,10 @@ StepReport DualTime::advance(const InnerTolerance& tolerance) {
   StepReport out;
   out.step = ++state_.step;
   out.time = time();
-  out.attitude = motion_.at(out.time);
-  const auto conditions = treatment_->move_to(state_.step);
-  const Vec3 axes = treatment_->axes(out.attitude);
+  auto conditions = treatment_->move_to(state_.step);
+  out.attitude = treatment_->attitude(state_.step);
+  Vec3 axes = treatment_->axes(out.attitude);
   const Real inverse_step = time_weights(state_.step, weights_step_).now;
-  const int axis = motion_.moment_axis();
   predict(axes);
   iteration_.linearise(conditions, {.cfl = pseudo_cfl, .inverse_step = inverse_step});
   Real first = 0, change = 0, lowest = 0;
@@ -135,17 +132,22 @@ StepReport DualTime::advance(const InnerTolerance& tolerance) {
     // Changes that shrink by the rate r each time leave r / (1 - r) times the latest one.
     const Load delta = out.report.total - previous;
     const Real previous_change = change;
-    change = std::abs(delta.moment[axis]);
+    change = treatment_->size_of(delta);
     const Real shrinking = inner < 2 ? slowest_rate : change / std::max(previous_change, 1e-300);
     const Real rate = std::clamp(shrinking, slowest_rate / 2, slowest_rate);
     out.error = rate / (1 - rate) * delta;
     previous = out.report.total;
     const Real allowed = tolerance.share * moment_scale(out, tolerance.amplitude);
-    const Real left = std::abs(out.error.moment[axis]);
+    const Real left = treatment_->size_of(out.error);
     out.inner_left = left / std::max(allowed, 1e-300);
+    const auto answered = treatment_->answer(out.report.total);
+    out.attitude = treatment_->attitude(state_.step);
     if (inner >= 3 && left <= allowed) break;
     if (inner >= tolerance.max_iterations || inner - lowest_at >= stall) break;
     iteration_.advance();
+    if (!answered) continue;
+    conditions = *answered;
+    axes = treatment_->axes(out.attitude);
   }
   keep_levels(axes);
   return out;

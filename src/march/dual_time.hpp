@@ -61,8 +61,8 @@ class DualTime {
 
   /// One step of BDF2 (backward Euler for the first), fitted to the frequency of a harmonic motion. It ends
   /// when the moment is within the tolerance, the inner iterations are used up, or the residual has come to a
-  /// stall, as where a limiter never rests; the report holds the error that is left. Throws DivergedError
-  /// when a state turns unphysical.
+  /// stall, as where a limiter never rests; the report holds the error that is left. A body that flies freely
+  /// answers the loads in every one of them. Throws DivergedError when a state turns unphysical.
   StepReport advance(const InnerTolerance& tolerance);
 
   int step() const { return state_.step; }

@@ -1,14 +1,14 @@
 #include "march/moving_grid.hpp"
 
+#include <utility>
+
 #include "march/deformation.hpp"
 
 namespace alphadot {
 
 MovingGrid::MovingGrid(const Motion& motion, const Vec3& axis_point, Real time_step, Subdomain& domain,
                        Discretization& discretization)
-    : motion_(motion),
-      axis_point_(axis_point),
-      time_step_(time_step),
+    : Treatment(motion, axis_point, time_step),
       weights_step_(fitted_step(time_step, motion.is_harmonic() ? motion.omega() : 0)),
       domain_(domain),
       discretization_(discretization),
@@ -52,7 +52,7 @@ Conditions<Real> RigidGrid::move_to(int step) {
 
 std::unique_ptr<Treatment> make_treatment(TreatmentKind kind, const Motion& motion, const Vec3& axis_point,
                                           Real time_step, Subdomain& domain, Discretization& discretization,
-                                          const Communicator& comm) {
+                                          const Communicator& comm, std::unique_ptr<GustField> gust) {
   switch (kind) {
     case TreatmentKind::rigid_grid:
       return std::make_unique<RigidGrid>(motion, axis_point, time_step, domain, discretization);
@@ -61,7 +61,7 @@ std::unique_ptr<Treatment> make_treatment(TreatmentKind kind, const Motion& moti
     case TreatmentKind::field_velocity:
       break;
   }
-  return std::make_unique<FieldVelocity>(motion, axis_point, time_step, discretization);
+  return std::make_unique<FieldVelocity>(motion, axis_point, time_step, discretization, std::move(gust));
 }
 
 }  // namespace alphadot

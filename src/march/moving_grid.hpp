@@ -32,9 +32,6 @@ class MovingGrid : public Treatment {
   /// Lets metrics and reconstruction follow the points of the domain.
   void renew_geometry();
 
-  const Motion& motion_;
-  Vec3 axis_point_;
-  Real time_step_;
   Real weights_step_;  // as the march's
   Subdomain& domain_;
   Discretization& discretization_;

@@ -128,8 +128,8 @@ void Motion::hold_wind(Attitude& attitude) const {
   attitude.velocity = wind_ - on_turned_axes(wind_, -attitude.angle);
 }
 
-void Motion::find_incidence(Attitude& attitude) const {
-  const Vec3 air = on_turned_axes(wind_ - attitude.velocity, attitude.angle);
+void find_incidence(Attitude& attitude, const Vec3& wind) {
+  const Vec3 air = on_turned_axes(wind - attitude.velocity, attitude.angle);
   attitude.alpha = std::atan2(air.z, air.x);
   attitude.beta = std::atan2(-air.y, std::hypot(air.x, air.z));
 }
@@ -146,7 +146,7 @@ void Motion::follow_table(Attitude& attitude, Real time) const {
   }
   for (int axis = 0; axis < 3; ++axis)
     if (const auto& curve = table_.position[axis]) attitude.velocity[axis] = per_time * curve->rate(t);
-  find_incidence(attitude);
+  find_incidence(attitude, wind_);
 }
 
 Attitude Motion::at(Real time) const {
@@ -156,6 +156,7 @@ Attitude Motion::at(Real time) const {
   const Real angle = amplitude_ * std::sin(phase), rate = amplitude_ * omega() * std::cos(phase);
   switch (settings_.kind) {
     case MotionKind::none:
+    case MotionKind::free:
       break;
     case MotionKind::plunge:
       sink(out, angle);
@@ -170,11 +171,11 @@ Attitude Motion::at(Real time) const {
       break;
     case MotionKind::yaw:
       turn(out, 2, angle, rate);
-      find_incidence(out);
+      find_incidence(out, wind_);
       break;
     case MotionKind::roll:
       turn(out, 0, -angle, -rate);
-      find_incidence(out);
+      find_incidence(out, wind_);
       break;
     case MotionKind::flap:
       turn(out, 1, angle, rate);

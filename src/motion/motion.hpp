@@ -36,6 +36,7 @@ bool is_harmonic(MotionKind kind);
 /// | ramp_alpha | alpha from alpha0 to alpha0 + A over the duration, at a constant rate                 |
 /// | step_q     | flap at the constant reduced pitch rate A from t = 0 on                               |
 /// | table      | alpha, theta and position from a table; given alpha, the axial speed is kept          |
+/// | free       | nothing here: the body stays at its release (rigid_body.hpp)                          |
 class Motion {
  public:
   /// `mach` and the incidence set the free stream; `length` the scale of reduced frequency and t* = 2 V t /
@@ -69,8 +70,6 @@ class Motion {
   void sink(Attitude& attitude, Real change) const;
   /// Makes the flight path turn with the body, so that the wind on its axes stays.
   void hold_wind(Attitude& attitude) const;
-  /// Incidence from velocity and angle.
-  void find_incidence(Attitude& attitude) const;
   void follow_table(Attitude& attitude, Real time) const;
 
   MotionSettings settings_;
@@ -87,6 +86,9 @@ Vec3 wind_velocity(Real speed, Real alpha, Real beta);
 /// The vector `v` along axes that have been turned by the rotation vector `angle` (Rodrigues): components on
 /// body axes.
 Vec3 on_turned_axes(const Vec3& v, const Vec3& angle);
+
+/// Sets the incidence that follows from velocity and angle, in air that moves with `wind`.
+void find_incidence(Attitude& attitude, const Vec3& wind);
 
 /// Angular velocity, along the axes at rest, of axes turned by the rotation vector `angle` (rad) that changes
 /// at `rate` (rad per unit of time): the rate itself only while that turns about the same axis (inverse of

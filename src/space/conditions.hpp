@@ -16,6 +16,14 @@ struct FaceSpeeds {
   std::vector<Real> boundary;  ///< [boundary_faces]
 };
 
+/// A field velocity g that varies in space: air that moves across the stream, g = strength * direction, in
+/// fronts with the unit normal `front`. Its sums over the faces of each cell, [owned_cells].
+struct GustInCells {
+  Vec3 front, direction;
+  std::vector<Real> slope;       ///< volume times d strength / d(front . x)
+  std::vector<Real> divergence;  ///< what g's flow out of the cell lacks to zero by the faces' finite number
+};
+
 /// Free stream and grid velocity along the axes in which the flow is solved. On rotating body axes the
 /// velocity stays absolute and only its components turn: the momentum balance gains -rho rotation x (u -
 /// turning_stream) in every cell, and the energy balance the work of that. The turning stream is zero where
@@ -31,6 +39,8 @@ struct Conditions {
   bool turning_source = true;
   /// Takes the place of `grid` when there is one; outlives the conditions.
   const FaceSpeeds* face_speeds = nullptr;
+  /// A gust whose velocity `face_speeds` holds; outlives the conditions.
+  const GustInCells* gust = nullptr;
 
   /// Speed of an interior face along its unit normal.
   T face_speed(Index face, const Vec3& center, const Vec3& normal) const {
@@ -54,6 +64,23 @@ template <class T>
 Conserved<T> turning_source(const Primitive<T>& w, const Conditions<T>& conditions) {
   const auto turn = w[0] * cross(conditions.grid.rotation, velocity(w) - conditions.turning_stream);
   return {{T(0), turn.x, turn.y, turn.z, dot(velocity(w), turn)}};
+}
+
+/// What a cell gains, as an outflow, from a gust that varies in space. The flow's velocity u is that of the
+/// air less the gust's g; with it the momentum balance gains rho Dg/Dt, and the energy balance u times that
+/// (G. Wales, D. Jones & A. Gaitonde, J. Aircraft 52, 2015, 151: split velocity, all its sources). A gust
+/// that is at rest in the undisturbed air u0 has Dg/Dt = (u + g - u0) . grad g, and g is normal to grad g.
+/// The same is taken of a pattern that comes at another speed: something else than the body holds it. The
+/// uniform stream is then a solution, also on the mesh: what g's flow through the faces of a cell lacks to
+/// zero is taken off.
+template <class T>
+Conserved<T> gust_source(const Primitive<T>& w, const Conditions<T>& conditions, std::size_t cell,
+                         Real gamma) {
+  const GustInCells& gust = *conditions.gust;
+  const T across = dot(velocity(w) - velocity(conditions.free_stream), gust.front);
+  const Vec3Of<T> push = T(w[0] * across * gust.slope[cell]) * gust.direction;
+  const Conserved<T> lack = T(gust.divergence[cell]) * conserved(w, gamma);
+  return {{-lack[0], push.x - lack[1], push.y - lack[2], push.z - lack[3], dot(velocity(w), push) - lack[4]}};
 }
 
 /// Conditions of the field velocity approach: a still mesh, everything along body axes.

@@ -8,7 +8,7 @@
 #include "euler/flux.hpp"
 #include "partition/subdomain.hpp"
 #include "space/settings.hpp"
-#include "space/symmetric3.hpp"
+#include "core/symmetric3.hpp"
 
 namespace alphadot {
 

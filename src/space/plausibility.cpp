@@ -218,7 +218,9 @@ class Judge {
       warn(fmt::format(
           "motion.axis_point is {:.4g} body lengths away from the body: its turning is mostly a plunge",
           lengths));
-    if (motion.kind == MotionKind::none || motion.kind == MotionKind::table) return;
+    if (motion.kind == MotionKind::none || motion.kind == MotionKind::table ||
+        motion.kind == MotionKind::free)
+      return;
     if (motion.kind != MotionKind::step_q && motion.amplitude > plausible::largest_amplitude)
       warn(
           fmt::format("motion.amplitude = {:g} degrees: derivatives are about small angles, and beyond {:g} "

@@ -24,6 +24,7 @@ void Residual::evaluate(FlowField<Real>& flow, const Conditions<Real>& condition
     interior_faces(flow, conditions, order, 0, domain.cut_face_begin, residual);
     boundary_faces(flow, conditions, order, residual);
     rotating_axes(flow, conditions, residual);
+    gusts(flow, conditions, residual);
   });
   interior_faces(flow, conditions, order, domain.cut_face_begin, cut_end, residual);
 }
@@ -175,6 +176,13 @@ void Residual::rotating_axes(const FlowField<Real>& flow, const Conditions<Real>
   for (Index cell = 0; cell < domain.owned_cells; ++cell) {
     residual[cell] += domain.volume[cell] * turning_source(flow[cell], conditions);
   }
+}
+
+void Residual::gusts(const FlowField<Real>& flow, const Conditions<Real>& conditions,
+                     std::span<Conserved<Real>> residual) {
+  if (!conditions.gust) return;
+  for (std::size_t cell = 0; cell < residual.size(); ++cell)
+    residual[cell] += gust_source(flow[static_cast<Index>(cell)], conditions, cell, discretization_.gamma());
 }
 
 }  // namespace alphadot

@@ -17,7 +17,8 @@ class Residual {
   Residual(const Discretization& discretization, const Communicator& comm);
 
   /// Fills residual[owned_cells] with the net flux out of each cell plus the momentum source of rotating
-  /// axes and its work; brings the ghosts of `flow` up to date. `order` 1 leaves the gradients out.
+  /// axes and of gusts and its work; brings the ghosts of `flow` up to date. `order` 1 leaves the gradients
+  /// out.
   void evaluate(FlowField<Real>& flow, const Conditions<Real>& conditions, int order,
                 std::span<Conserved<Real>> residual);
 
@@ -46,6 +47,8 @@ class Residual {
                       std::span<Conserved<Real>> residual);
   void rotating_axes(const FlowField<Real>& flow, const Conditions<Real>& conditions,
                      std::span<Conserved<Real>> residual);
+  void gusts(const FlowField<Real>& flow, const Conditions<Real>& conditions,
+             std::span<Conserved<Real>> residual);
 
   const Discretization& discretization_;
   Reconstruction<Real> reconstruction_;
