@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""An oscillating flat plate in supersonic flow: exact linear theory at any frequency.
+"""A flat plate in supersonic flow that oscillates, or flies into a gust: exact linear theory.
 
 The potential above the plate is -(1/beta) times the integral over the downwash ahead, with the kernel exp(-i w s) J0(w s / M),
 w = omega c M^2 / (V beta^2) (I. E. Garrick & S. I. Rubinow, NACA Report 846, 1946); the pressure follows from it by Bernoulli's
@@ -51,6 +51,30 @@ def oscillating_plate(mach: float, k: float, x0: float) -> dict[str, Response]:
         moment = 4 * (1j * omega * ((phi * (nodes - x0)) @ weights) + at_end * (1 - x0) - phi @ weights)
         out[name] = Response(complex(force), complex(-moment))
     return out
+
+
+def sharp_gust(mach: float, way: float) -> tuple[float, float]:
+    """CN and Cm about the leading edge, per radian w / V, of a plate that has flown `way` chords into a gust with a sharp edge.
+
+    In the frame of the air the leading edge starts normal velocity w at X' when it comes by, at -X' / V, but only in the gust, X' < 0.
+    The pressure of a plane whose normal velocity starts so is rho a w / pi times the integral of dX' / sqrt(a^2 (t + X' / V)^2 - (X -
+    X')^2) (acoustics of a half space; without an edge it is Ackeret's rho V w / sqrt(M^2 - 1)), here cut off at X' = 0 (M. A. Biot,
+    J. Aeronaut. Sci. 16, 1949, 296).
+    """
+    nodes, weights = np.polynomial.legendre.leggauss(200)
+    sound = way / mach
+    # The pressure has corners where waves from the edge begin and end; Gauss's rule between them, dense at their square roots.
+    corners = sorted({0.0, 1.0, *(min(max(x, 0.0), 1.0) for x in (way - sound, way, way + sound))})
+    force = moment = 0.0
+    for a, b in zip(corners, corners[1:]):
+        x = a + (b - a) * 0.5 * (1 - np.cos(0.5 * math.pi * (nodes + 1)))
+        dx = (b - a) * 0.25 * math.pi * np.sin(0.5 * math.pi * (nodes + 1)) * weights
+        first, last = (x - way - sound) / (1 + 1 / mach), (x - way + sound) / (1 - 1 / mach)
+        middle = np.clip((2 * np.minimum(last, 0.0) - first - last) / np.maximum(last - first, 1e-300), -1.0, 1.0)
+        load = np.where(first >= 0, 0.0, 0.5 + np.arcsin(middle) / math.pi) * 4 / math.sqrt(mach**2 - 1)
+        force += float(load @ dx)
+        moment -= float((load * x) @ dx)
+    return force, moment
 
 
 if __name__ == "__main__":

@@ -42,8 +42,8 @@ class FreeFlight(ExactCase):
         k = math.sqrt(-share * by_angle - damping**2)
         duration = round(2 * math.pi * 2 / k, 6)
         free = {
-            **about, "freestream.alpha": alpha, "motion.kind": "free", "body.free": '["pitch"]', "body.inertia": f"[1, {inertia}, {inertia}]",
-            "unsteady.duration": duration, "unsteady.steps": 72,
+            **about, "freestream.alpha": alpha, "motion.kind": "free", "body.free": '["pitch"]',
+            "body.inertia": f"[1, {inertia}, {inertia}]", "unsteady.duration": duration, "unsteady.steps": 72,
         }  # fmt: skip
         result = run(self.folder / "free", "run", case, mesh, free)
         found = result["decay"]
@@ -65,13 +65,14 @@ class FreeFlight(ExactCase):
         return found
 
     def test_damped_cone(self) -> None:
-        found = self.check_pitch("sharp_cone/derivatives.toml", "cone_tiny.msh", {"reference.moment_center": "[0.5, 0, 0]"}, 0.0976759097, 1)
+        about = {"reference.moment_center": "[0.5, 0, 0]"}
+        found = self.check_pitch("sharp_cone/derivatives.toml", "cone_tiny.msh", about, 0.0976759097, 1)
         self.assertGreater(found["damping"], 0)
 
     def test_wedge_that_swings_up(self) -> None:
         """A section about its quarter chord at Mach 1.5: theory of sections has negative damping at low supersonic speeds."""
         about = {"reference.moment_center": "[0.25, 0, 0]", "reference.area": 0.18, "freestream.mach": 1.5}
-        found = self.check_pitch("wedge/derivatives.toml", "wedge_tiny.msh", about, 0.18, 0.2)
+        found = self.check_pitch("wedge/derivatives.toml", "wedge_tiny.msh", about, 0.18, 0.02)
         self.assertLess(found["damping"], 0)
 
     def test_restart_to_the_bit(self) -> None:
