@@ -241,8 +241,8 @@ std::vector<CaseKey> make_keys() {
           "(p, q, r) * length / (2 V): for kind = \"none\" steady rotation at constant incidence, for kind = "
           "\"free\" that at the release");
 
-  const auto per_mass = NumberValue{.from = 0, .to = 1e30};
-  const auto inertias = VectorValue{.from = 0, .to = 1e30};
+  const auto per_mass = NumberValue{.from = 0, .to = 1e18};
+  const auto inertias = VectorValue{.from = 0, .to = 1e18};
   Table(keys, "body", &Case::body)
       .key(
           "free", &BodySettings::free, WordsValue{words_of<FreedomKind>},
@@ -252,7 +252,7 @@ std::vector<CaseKey> make_keys() {
            "over rho length^3, rho the stream's density; of the whole body, also for a half model")
       .key("inertia", &BodySettings::inertia, inertias,
            "moments about the mesh axes through the centre of gravity, motion.axis_point; over rho length^5")
-      .key("products", &BodySettings::products, VectorValue{.from = -1e30, .to = 1e30},
+      .key("products", &BodySettings::products, VectorValue{.from = -1e18, .to = 1e18},
            "of inertia, integrals of x y, x z and y z over the mass, likewise")
       .key("gravity", &BodySettings::gravity, VectorValue{.from = -1e6, .to = 1e6},
            "acceleration along the mesh axes at the release, times length / V^2");

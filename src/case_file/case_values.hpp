@@ -143,7 +143,7 @@ struct WordsValue {
   static constexpr bool is_text = false;
   std::span<const Word<E>> words;
 
-  std::string type() const { return "a list of " + WordValue<E>{words}.type(); }
+  std::string type() const { return "several of " + WordValue<E>{words}.type(); }
   MaybeProblem read(const toml::node& node, std::vector<E>& value) const {
     const auto* list = node.as_array();
     if (!list) return wrong_value(type(), node);

@@ -124,9 +124,10 @@ TEST(CaseFile, ResolvedCaseReadsBackTheSame) {
 TEST(CaseFile, EveryKeyWithEveryWordReadsBackTheSame) {
   const auto check = [](const std::string& key, auto value) {
     const std::string word = word_of(value);
-    const Case c =
-        parse_case(minimal, "a.toml",
-                   {key + "=" + word, "unsteady.duration=1", "unsteady.steps=20", "motion.table_file=t"});
+    const Case c = parse_case(
+        minimal, "a.toml",
+        {key + "=" + word, "unsteady.duration=1", "unsteady.steps=20", "motion.table_file=t",
+         "gust.table_file=g", "body.free=[\"pitch\", \"heave\"]", "body.mass=2", "body.inertia=[0, 3, 0]"});
     EXPECT_NE(resolved_case(c).find("\"" + word + "\""), std::string::npos) << key << " " << word;
     expect_same(parse_case(resolved_case(c), "b.toml"), c);
   };
@@ -137,6 +138,8 @@ TEST(CaseFile, EveryKeyWithEveryWordReadsBackTheSame) {
   for (const auto& word : words_of<MotionKind>) check("motion.kind", word.value);
   for (const auto& word : words_of<TreatmentKind>) check("motion.treatment", word.value);
   for (const auto& word : words_of<BoundaryKind>) check("boundary.body", word.value);
+  for (const auto& word : words_of<GustKind>) check("gust.kind", word.value);
+  for (const auto& word : words_of<GustDirection>) check("gust.direction", word.value);
 }
 
 TEST(CaseFile, DocumentationNamesEveryKey) {

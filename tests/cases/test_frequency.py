@@ -46,6 +46,28 @@ class Frequency(ExactCase):
                 self.assert_close(f"{name} at k = {k}", abs(load), abs(linear_load), 0.002)
                 self.assertLess(abs(math.degrees(cmath.phase(load / linear_load))), 0.2, f"{name} at k = {k}")
 
+    def test_pitch_and_plunge_with_the_step_refined(self) -> None:
+        """At k = 0.5, where the parts out of phase are as large as they get: histories of 24 and 48 steps a cycle, extrapolated."""
+        k = 0.5
+        response = self.derivatives("frequency", "derivatives.toml", {"derivatives.orders": 4}, ["--k", str(k)])
+        linear = lambda entry: response[f"{entry}, k = {k:g}"]["value"]
+        for motion, rate in (("plunge", "alphadot"), ("pitch", "q_plus_alphadot")):
+            coarse, fine = (
+                self.derivatives("run", "plunge.toml", {
+                    "motion.kind": motion, "motion.reduced_frequency": k, "motion.amplitude": 0.05, "unsteady.steps_per_cycle": steps,
+                    "unsteady.inner_tolerance": 1e-4,
+                })
+                for steps in (24, 48)
+            )  # fmt: skip
+            for name in ("CN", "Cm"):
+                by_steps = [complex(run[f"{name}_alpha"]["value"], k * run[f"{name}_{rate}"]["value"]) for run in (coarse, fine)]
+                load = (4 * by_steps[1] - by_steps[0]) / 3
+                expected = complex(linear(f"{name}_alpha"), k * linear(f"{name}_{rate}"))
+                if motion == "pitch":  # theta drives both the incidence and the rate, which has a rate of its own
+                    expected -= k**2 * linear(f"{name}_qdot")
+                self.assert_close(f"{name}, {motion}", abs(load), abs(expected), 0.002)
+                self.assertLess(abs(math.degrees(cmath.phase(load / expected))), 0.2, f"{name}, {motion}")
+
 
 if __name__ == "__main__":
     unittest.main()
