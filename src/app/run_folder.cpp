@@ -99,8 +99,7 @@ std::vector<std::string> other_than(const nlohmann::json& result, const Setup& s
   }
   if (const auto hash = text_of(result.at("mesh"), "hash"); hash != setup.mesh.hash)
     out.push_back(fmt::format("it is of another mesh, {} with hash {}", before.mesh.file, hash));
-  const bool has_motion =
-      text_of(result, "verb") == "run" && verb == "run" && goes_on_in_time(before);
+  const bool has_motion = text_of(result, "verb") == "run" && verb == "run" && goes_on_in_time(before);
   for (const auto& [key, there, here] :
        differences(before, setup.settings, has_motion ? Shared::motion : Shared::flow))
     out.push_back(fmt::format("its {} is {}, not {}", key, there, here));

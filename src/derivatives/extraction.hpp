@@ -14,9 +14,9 @@
 namespace alphadot {
 
 struct Extraction {
-  EstimatedDerivatives estimated;  ///< about the history's moment centre
-  std::string method;              ///< "harmonic fit, plunge, k = 0.01"
-  std::optional<Decay> decay = {};    ///< of a free flight
+  EstimatedDerivatives estimated;   ///< about the history's moment centre
+  std::string method;               ///< "harmonic fit, plunge, k = 0.01"
+  std::optional<Decay> decay = {};  ///< of a free flight
 };
 
 /// Derivatives of the whole configuration ("total") by the method that the history's motion allows. Throws

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "core/symmetric3.hpp"
 #include "euler/boundary.hpp"
 #include "linear/tangent_transpose.hpp"
 #include "linear/transposed_product.hpp"
@@ -12,7 +13,6 @@
 #include "space/forces_transpose.hpp"
 #include "space/gradient.hpp"
 #include "space/limiter.hpp"
-#include "core/symmetric3.hpp"
 
 namespace alphadot {
 

@@ -4,11 +4,11 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/symmetric3.hpp"
 #include "euler/boundary.hpp"
 #include "euler/flux.hpp"
 #include "partition/subdomain.hpp"
 #include "space/settings.hpp"
-#include "core/symmetric3.hpp"
 
 namespace alphadot {
 
