@@ -110,7 +110,8 @@ class Faults(unittest.TestCase):
         self.refused("/proc/out", out="/proc/out")
 
     def test_wrong_mesh_format(self) -> None:
-        self.refused("box.msh", "$MeshFormat", mesh="solid cube\n facet normal 0 0 1\n")
+        self.refused("box.msh", "$MeshFormat", mesh="a cube of cells\n")
+        self.refused("box.msh", "STL, a surface without a volume", mesh="solid cube\n facet normal 0 0 1\n")
 
     def test_mesh_with_an_unknown_suffix(self) -> None:
         (self.folder / "box.stl").write_text("solid cube\n")
