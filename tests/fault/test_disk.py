@@ -11,7 +11,7 @@ import unittest
 
 from runs import CaseInFolder, LiveRun, checkpoints, differences, result, run, settings
 
-SHORT = settings(motion_kind="step_alpha", unsteady_duration=2, unsteady_steps=11, checkpoint_steps=1)
+SHORT = settings(motion_kind="step_alpha", unsteady_duration=4, unsteady_steps=12, checkpoint_steps=1)
 
 LIVE = ("steady.csv", "progress.json")  # for who watches: a run does without
 OF_VERB = {"run": ("history.h5", "history.csv"), "derivatives": ("derivatives.csv", "derivatives.st", "derivatives.jsbsim.xml")}

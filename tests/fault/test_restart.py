@@ -10,7 +10,7 @@ from pathlib import Path
 
 from runs import CaseInFolder, STEPS, checkpoints, derivatives, differences, make_case, result, run, settings
 
-SHORT = dict(unsteady_duration=2, unsteady_steps=11)  # the least that derivatives can be taken from
+SHORT = dict(unsteady_duration=4, unsteady_steps=12)  # the least that derivatives can be taken from
 INDICIAL = settings(motion_kind="step_alpha", **SHORT)
 ROTATION = dict(motion_kind="step_q", motion_amplitude=0.01, **SHORT)
 
