@@ -22,15 +22,14 @@ constexpr const char* openfoam_remedy =
     "write the mesh with the program that made it as Gmsh, SU2, UGRID or CGNS file; polyhedra cannot be used";
 constexpr const char* with_groups = "gmsh FILE -save -format msh41 -o mesh.msh converts it, groups included";
 constexpr const char* through_gmsh =
-    "gmsh FILE -save -format msh41 -o mesh.msh converts it; groups lose their names: patches become "
-    "surface_1, "
-    "surface_2 ...";
+    "gmsh FILE -save -format msh41 -o mesh.msh converts it; groups lose their names: "
+    "patches become surface_1, surface_2 ...";
 constexpr const char* surface_only = "mesh the volume around it first, with Gmsh for example";
 constexpr const char* from_its_program =
     "write the mesh with the program that made it as Gmsh, SU2, UGRID or CGNS file";
 
 /// In lower case, as what they are compared with.
-constexpr std::array<Foreign, 23> beginnings{
+constexpr std::array<Foreign, 22> beginnings{
     {{"\xff\xfe", "the file is text in UTF-16", "save it as ASCII or UTF-8"},
      {"\xfe\xff", "the file is text in UTF-16", "save it as ASCII or UTF-8"},
      {"version https://git-lfs.github.com/spec/", "the file is a Git LFS pointer, not the mesh itself",
@@ -49,7 +48,6 @@ constexpr std::array<Foreign, 23> beginnings{
      {"solid ", "the file is STL, a surface without a volume", surface_only},
      {"ply\n", "the file is PLY, a surface without a volume", surface_only},
      {"ply\r", "the file is PLY, a surface without a volume", surface_only},
-     {"bulk data", "the file is of Nastran, which is not read", through_gmsh},
      {"begin bulk", "the file is of Nastran, which is not read", through_gmsh},
      {"$ ", "the file begins with a comment of Nastran, which is not read", through_gmsh},
      {"pk\x03\x04", "the file is a zip archive", "unzip it"},
@@ -73,7 +71,7 @@ constexpr std::array<ForeignName, 47> names{
      {".msh.h5", "meshes of Fluent are not read", fluent_remedy},
      {".foam", "OpenFOAM's polyMesh is not read", openfoam_remedy},
      {".unv", "I-deas files are not read", with_groups},
-     {".med", "MED files are not read", through_gmsh},
+     {".med", "MED files are not read", from_its_program},
      {".bdf", "Nastran files are not read", through_gmsh},
      {".nas", "Nastran files are not read", through_gmsh},
      {".mesh", "Medit files are not read", through_gmsh},

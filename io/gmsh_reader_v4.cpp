@@ -172,7 +172,7 @@ void read_partitioned_entities_v4(State& state) {
     in.read_int("the partition of a ghost entity");
   }
   read_entities(state, true);
-  if (std::ssize(state.parts) < parts)
+  if (!state.parts.empty() && std::ssize(state.parts) < parts)
     in.fail(fmt::format("the file holds {} of {} partitions of a mesh", state.parts.size(), parts),
             "save the mesh in one file: set Mesh.PartitionSplitMeshFiles to 0, or merge the files in Gmsh");
 }

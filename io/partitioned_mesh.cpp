@@ -109,6 +109,16 @@ class Reader {
   hdf5::File file_;
 };
 
+/// Opens an HDF5 file; where that fails and its name is one of another program's, says so.
+hdf5::File open_or_name(const std::string& path) {
+  try {
+    return hdf5::File::open(path);
+  } catch (const InputError&) {
+    if (const auto problem = foreign_name(path, in_lower_case(path))) throw InputError(std::vector{*problem});
+    throw;
+  }
+}
+
 }  // namespace
 
 bool is_hdf5(const std::string& path) {
@@ -119,14 +129,14 @@ bool is_hdf5(const std::string& path) {
 }
 
 bool is_partitioned_mesh(const std::string& path) {
-  if (!is_hdf5(path) || foreign_name(path, in_lower_case(path))) return false;
-  const auto file = hdf5::File::open(path);
+  if (!is_hdf5(path)) return false;
+  const auto file = open_or_name(path);
   return file.has_attribute("format") && file.text_attribute("format") == format_name;
 }
 
 PartitionedMeshHeader read_partitioned_mesh_header(const std::string& path) {
-  if (const auto problem = foreign_name(path, in_lower_case(path))) throw InputError(std::vector{*problem});
   if (!is_partitioned_mesh(path)) {
+    if (const auto problem = foreign_name(path, in_lower_case(path))) throw InputError(std::vector{*problem});
     throw InputError(path, 0, "is an HDF5 file, but not a mesh prepared by alphadot partition",
                      "name a mesh file in [mesh] file");
   }

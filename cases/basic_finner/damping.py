@@ -5,13 +5,13 @@
 
 Families of meshes, each made for a part of the Mach numbers of the RANS tables (alphadot derivatives --tolerance --plain), at no
 incidence: Cm_q + Cm_alphadot without spacing of cells, with its interval. Prints the table and draws damping.png. What is there is found
-again; a family that fails is left out, and the exit code is then 1. Needs Debian's python3-gmsh, python3-numpy and python3-matplotlib (hence /usr/bin/python3).
+again; a family that fails is left out, and the exit code is then 1. Needs Debian's python3-gmsh, python3-numpy and python3-matplotlib
+(hence /usr/bin/python3).
 """
 
 from __future__ import annotations
 
 import argparse
-import csv
 import json
 import math
 import re
@@ -25,8 +25,9 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 
 HERE = Path(__file__).resolve().parent
-ROOT = HERE.parents[1]
+ROOT, REFERENCE = HERE.parents[1], HERE / "reference"
 sys.path.insert(0, str(ROOT / "scripts"))
+from run_csv import rows_of
 from sweep.figures import COLORS, STYLE
 from sweep.text import aligned
 
@@ -50,8 +51,8 @@ def family(arguments: argparse.Namespace, machs: tuple[float, ...]) -> dict[floa
     text, count = re.subn(r"mach = \[[^]]*\]", f"mach = [{machs[0]}, {machs[-1]}]", (HERE / "missile.toml").read_text())
     assert count == 1
     description = folder / "missile.toml"
-    if not description.exists():
-        description.write_text(text)
+    if not description.exists() or description.read_text() != text:
+        description.write_text(text)  # and what was made of another is refused
     command = [arguments.program, "derivatives", description, "--tolerance", "0.1%", "--plain", "--cells", arguments.cells]
     command += ["--out", folder / "runs", "--set", "freestream.alpha=0", "--mach", *machs]
     if subprocess.run([str(word) for word in command], stdout=subprocess.DEVNULL).returncode not in (0, 5):
@@ -61,16 +62,12 @@ def family(arguments: argparse.Namespace, machs: tuple[float, ...]) -> dict[floa
     return {mach: stream["derivatives"] for mach, stream in zip(machs, found["streams"], strict=True)}
 
 
-def reference(name: str) -> list[dict[str, str]]:
-    with (HERE / "reference" / name).open() as file:
-        return list(csv.DictReader(line for line in file if not line.startswith("#")))
-
-
 def main() -> int:
     arguments = parse()
-    rans = {method: {float(row["Mach"]): float(row["PDM"]) for row in reference("finner_rans_ARL_TR_6725.csv") if row["method"] == method}
+    published = rows_of(REFERENCE / "finner_rans_ARL_TR_6725.csv")
+    rans = {method: {float(row["Mach"]): float(row["PDM"]) for row in published if row["method"] == method}
             for method in ("planar_pitching", "lunar_coning")}  # fmt: skip
-    flights = [row for row in reference("finner_free_flight_DREV_TM_9703.csv") if row["flag"] == "ok" and row["table"] == "VIII"]
+    flights = [row for row in rows_of(REFERENCE / "finner_free_flight_DREV_TM_9703.csv") if row["flag"] == "ok" and row["table"] == "VIII"]
     rows = [("Mach", "Cm_q", "Cm_alphadot", "sum", "", "RANS, pitching", "off", "RANS, coning")]
     sums, widths = {}, {}
     found = {mach: values for machs in FAMILIES for mach, values in family(arguments, machs).items()}
@@ -84,9 +81,11 @@ def main() -> int:
     print(aligned(rows))
     with plt.rc_context(STYLE):
         figure, axes = plt.subplots(figsize=(7.2, 4.6), layout="constrained")
-        axes.errorbar(list(sums), list(sums.values()), list(widths.values()), fmt="o-", color=COLORS[0], capsize=3, label="alphadot, inviscid")
+        style = {"fmt": "o-", "color": COLORS[0], "capsize": 3, "label": "alphadot, inviscid"}
+        axes.errorbar(list(sums), list(sums.values()), list(widths.values()), **style)
         for (method, values), marker, color in zip(rans.items(), "s^", COLORS[1:]):
-            axes.plot(list(values), list(values.values()), f"{marker}--", color=color, ms=4, lw=1, label=f"RANS, {method.replace('_', ' ')}")
+            label = f"RANS, {method.replace('_', ' ')}"
+            axes.plot(list(values), list(values.values()), f"{marker}--", color=color, ms=4, lw=1, label=label)
         axes.plot([float(row["Mach"]) for row in flights], [float(row["Cmq_plus_Cmad"]) for row in flights], "x", color="#606060",
                   label="free flight (DREV)")  # fmt: skip
         axes.set(xlabel="Mach number", ylabel="$C_{mq}+C_{m\\dot\\alpha}$ about 5.5 d, per radian")

@@ -47,9 +47,8 @@ struct TableHead {
 };
 
 /// A row for each entry of the set, by groups, column by column; what symmetry makes exactly zero is left
-/// out. The parts
-/// are those that the uncertainties of the set are the sums of, in all of its columns; columns of
-/// `unconverged` variables are marked.
+/// out. The parts are those that the uncertainties of the set are the sums of, in all of its columns; columns
+/// of `unconverged` variables are marked.
 std::vector<TableRow> rows_of(const DerivativeSet& derivatives, const std::string& method,
                               Axes axes = Axes::body, std::span<const UncertaintyPart> parts = {},
                               const std::set<Variable>& unconverged = {});

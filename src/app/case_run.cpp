@@ -1,8 +1,8 @@
 #include "app/case_run.hpp"
 
 #include <fmt/ranges.h>
-#include <cmath>
 
+#include <cmath>
 #include <utility>
 
 #include "app/stop.hpp"

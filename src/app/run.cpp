@@ -212,8 +212,7 @@ RunStatus run_verb(const CaseArguments& arguments, const Communicator& comm) {
     motion_cpu = timer.cpu();
     if (followed == RunStatus::completed) {
       judge_steps(record, history);
-      if (auto shortfall = response_shortfall(run.settings(), setup.configuration.body_length);
-          !shortfall.empty())
+      if (auto shortfall = response_shortfall(run.settings(), setup.configuration); !shortfall.empty())
         record.fall_short(std::move(shortfall));
       extraction = extract(record, history, run.settings());
     }

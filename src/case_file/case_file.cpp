@@ -304,6 +304,7 @@ class CaseReader {
       complain_about({"unsteady.steps", "motion.kind"}, motion + " needs unsteady.steps >= 1");
     if (kind == MotionKind::free) check_body(c);
     check_gust(c);
+    check_estimates(c);
     check_derivatives(c);
   }
 
@@ -355,6 +356,19 @@ class CaseReader {
       complain_about({"unsteady.duration", "gust.kind"}, name + " needs unsteady.duration > 0");
     if (c.unsteady.steps < 1)
       complain_about({"unsteady.steps", "gust.kind"}, name + " needs unsteady.steps >= 1");
+  }
+
+  /// Correlations of boundary layers are of large Reynolds numbers.
+  void check_estimates(const Case& c) {
+    constexpr Real least = 1e4;
+    const auto check = [&](const std::string& key, Real value) {
+      if (value != 0 && value < least)
+        complain_about({key},
+                       fmt::format("{} = {:g} is below {:g}, where no correlation holds", key, value, least),
+                       "give that of the flight; 0 leaves it out");
+    };
+    check("estimates.reynolds", c.estimates.reynolds);
+    check("estimates.transition", c.estimates.transition);
   }
 
   /// A motion that runs to its end must yield derivatives.

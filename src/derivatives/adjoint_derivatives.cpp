@@ -1,4 +1,5 @@
 #include "derivatives/adjoint_derivatives.hpp"
+#include "derivatives/flow_symmetry.hpp"
 
 #include <fmt/format.h>
 
@@ -146,9 +147,14 @@ std::vector<TableRow> AdjointDerivatives::rows(const Adjoints& adjoints,
   for (const auto& functional : functionals_) {
     const Adjoint& adjoint = adjoints.at(functional.name());
     const std::size_t first = rows.size();
-    for (const Variable variable : variables_of(functional, settings))
-      rows.push_back({derivative_name(functional, name(variable)), derivative(adjoint, variable, settings),
-                      "adjoint, k -> 0"});
+    const Part part =
+        functional.patches.empty() ? Part() : Part(functional.patches, flow_.setup().domain.patch_names);
+    const auto symmetry = symmetry_of(part, flow_, settings);
+    for (const Variable variable : variables_of(functional, settings)) {
+      Estimate found = derivative(adjoint, variable, settings);
+      if (symmetry.makes_zero(functional.coefficient, variable)) found.uncertainty += std::abs(found.value);
+      rows.push_back({derivative_name(functional, name(variable)), found, "adjoint, k -> 0"});
+    }
     for (std::size_t i = 0; functional.rates == 0 && i < stream_.size(); ++i)
       rows.push_back(
           {derivative_name(functional, stream_[i].name()),

@@ -9,6 +9,7 @@
 
 #include "core/log.hpp"
 #include "derivatives/flight_variables.hpp"
+#include "derivatives/flow_symmetry.hpp"
 #include "derivatives/loads.hpp"
 
 namespace alphadot {
@@ -30,8 +31,8 @@ DerivativeSettings settings_at(Real k, DerivativeSettings settings) {
 
 /// The response of one part of the configuration, a row a coefficient that symmetry leaves.
 void add_rows(const std::string& part, Variable variable, Real k, const std::array<Load, 2>& response,
-              const std::array<Load, 2>& error, bool converged, const Case& settings,
-              std::vector<FrequencyRow>& rows) {
+              const std::array<Load, 2>& error, const FlowSymmetry& symmetry, bool converged,
+              const Case& settings, std::vector<FrequencyRow>& rows) {
   const Real scale = rate_scale(variable, settings);
   std::array<Coefficients, 2> values, errors;
   for (std::size_t i = 0; i < 2; ++i) {
@@ -41,12 +42,14 @@ void add_rows(const std::string& part, Variable variable, Real k, const std::arr
   for (int c = 0; c < Coefficients::size(); ++c) {
     const auto name = coefficient_names[static_cast<std::size_t>(c)];
     if (settings.reference.half_model && name != "CA" && name != "CN" && name != "Cm") continue;
+    for (std::size_t i = 0; i < 2; ++i)
+      errors[i][c] = std::abs(errors[i][c]) + (symmetry.makes_zero(c, variable) ? std::abs(values[i][c]) : 0);
     rows.push_back({k,
                     part,
                     std::string(name),
                     variable,
-                    {values[0][c], std::abs(errors[0][c])},
-                    {values[1][c] / k, std::abs(errors[1][c]) / k},
+                    {values[0][c], errors[0][c]},
+                    {values[1][c] / k, errors[1][c] / k},
                     converged});
   }
 }
@@ -110,12 +113,14 @@ std::vector<FrequencyRow> frequency_rows(const FlowCase& flow, const std::vector
                              response.iterations, settings.derivatives.orders);
       const bool converged = shortfall.empty() && is_deep;
       if (!shortfall.empty()) shortfalls.push_back(std::move(shortfall));
-      add_rows("total", variable, k, response.total, response.total_error, converged, settings, rows);
+      add_rows("total", variable, k, response.total, response.total_error, symmetry_of({}, flow, settings),
+               converged, settings, rows);
       const auto& patches = flow.setup().domain.patch_names;
       for (std::size_t patch = 0; patch < response.loads[0].size(); ++patch)
         if (settings.boundary.at(patches[patch]) == BoundaryKind::wall)
           add_rows(patches[patch], variable, k, {response.loads[0][patch], response.loads[1][patch]},
-                   {response.loads_error[0][patch], response.loads_error[1][patch]}, converged, settings,
+                   {response.loads_error[0][patch], response.loads_error[1][patch]},
+                   symmetry_of({std::span(&patches[patch], 1), patches}, flow, settings), converged, settings,
                    rows);
     }
   return rows;

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -11,6 +10,7 @@
 #include "core/log.hpp"
 #include "derivatives/controls.hpp"
 #include "derivatives/flight_variables.hpp"
+#include "derivatives/flow_symmetry.hpp"
 #include "derivatives/load_distributions.hpp"
 #include "derivatives/loads.hpp"
 #include "derivatives/part.hpp"
@@ -88,19 +88,6 @@ Responses solve_nearer(FlowCase& flow, SensitivitySolver& solver, const Response
   return out;
 }
 
-/// Whether a flow that is its own mirror image about the plane of x and y (or, `sideways`, of x and z) leaves
-/// a derivative zero: one of the load and the variable changes sign in the mirror, and the other does not.
-bool is_zero_in_mirror(std::string_view load, Variable variable, bool sideways) {
-  using enum Variable;
-  const auto is_one_of = [](const auto& all, const auto& one) {
-    return std::ranges::find(all, one) != all.end();
-  };
-  constexpr std::array<std::string_view, 3> upward{"CN", "Cl", "Cm"}, aside{"CY", "Cl", "Cn"};
-  constexpr std::array up{alpha, q, p, alphadot, alphaddot}, side{beta, r, p, betadot, betaddot};
-  return sideways ? is_one_of(aside, load) != is_one_of(side, variable)
-                  : is_one_of(upward, load) != is_one_of(up, variable);
-}
-
 /// What the responses say of parts of the configuration.
 class Estimation {
  public:
@@ -125,34 +112,26 @@ class Estimation {
     out.parts.push_back(std::move(linear));
     out.add(steady.source, std::move(steady.half_width));
     if (has_limiter) out.add(limiter.source, std::move(limiter.half_width));
-    if (part.is_whole()) add_symmetry(out, settings);
+    add_symmetry(out, part, settings);
     return out;
   }
 
  private:
-  /// A derivative that is zero by the symmetry of the flow is nothing but error: where the limiter has a kink
-  /// in the flow itself, a linear solve takes one side of it.
-  void add_symmetry(EstimatedDerivatives& out, const FlightCondition& settings) const {
-    constexpr Real nothing = 1e-6;  // of a load, beside its derivatives by angles and rates
-    const auto steady = coefficients(flow_.steady_report().total, settings);
-    Real largest = 0;
-    for (const auto& [variable, column] : out.derivatives)
-      for (int i = 0; i < column.size(); ++i) largest = std::max(largest, std::abs(column[i].value));
+  /// Where the whole flow is symmetric: what is zero of the part itself, and elsewhere as much as of the
+  /// whole.
+  void add_symmetry(EstimatedDerivatives& out, const Part& part, const FlightCondition& settings) const {
+    const auto of_whole = symmetry_of({}, flow_, flow_.settings());
+    if (!of_whole.is_any()) return;
+    const auto of_part = symmetry_of(part, flow_, settings);
     DerivativeSetOf<Real> half_width;
-    bool is_any = false;
-    for (const bool sideways : {false, true}) {
-      const auto are_small = [&](auto... loads) { return ((std::abs(loads) < nothing * largest) && ...); };
-      if (sideways ? settings.reference.half_model || !are_small(steady.CY, steady.Cl, steady.Cn)
-                   : !are_small(steady.CN, steady.Cl, steady.Cm))
-        continue;
-      is_any = true;
-      for (const auto& [variable, column] : out.derivatives)
-        for (int i = 0; i < column.size() && !is_control(variable); ++i)
-          if (is_zero_in_mirror(coefficient_names[static_cast<std::size_t>(i)], variable, sideways))
-            half_width[variable][i] = std::abs(column[i].value);
+    for (const auto& [variable, column] : out.derivatives) {
+      const auto whole = column_of(variable, responses_, {}, settings);
+      for (int i = 0; i < column.size(); ++i)
+        half_width[variable][i] = of_part.makes_zero(i, variable)    ? std::abs(column[i].value)
+                                  : of_whole.makes_zero(i, variable) ? std::abs(whole[i].value)
+                                                                     : 0;
     }
-    for (const auto& [variable, unused] : out.derivatives) half_width.try_emplace(variable);
-    if (is_any) out.add("symmetry", std::move(half_width));
+    out.add("symmetry", std::move(half_width));
   }
 
   /// Of a set of controls the sum.

@@ -42,8 +42,9 @@ using FieldsOnFaces = std::vector<std::pair<std::string, std::vector<Real>>>;
 
 /// What linear solves give.
 struct LinearDerivatives {
-  /// About the case's moment centre, per rad and reduced rate. The parts are "linear", "steady" and, when the
-  /// case asks for it, "limiter". No derivatives: the observer ended the solves.
+  /// About the case's moment centre, per rad and reduced rate. The parts are "linear", "steady", when the
+  /// case asks for it "limiter", and in a flow that is its own mirror image "symmetry". No derivatives: the
+  /// observer ended the solves.
   EstimatedDerivatives estimated;
   std::vector<ComponentDerivatives> components;  ///< each wall, and each set of walls of the case, by name
   std::vector<PanelDerivatives> panels;          ///< of every control

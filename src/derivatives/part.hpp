@@ -31,8 +31,6 @@ class Part {
   /// Walls of these names, which are among those of all patches.
   Part(std::span<const std::string> walls, std::span<const std::string> patch_names);
 
-  bool is_whole() const { return is_whole_; }
-
   /// Of the loads of every patch and their total.
   Load of(std::span<const Load> loads, const Load& total) const;
 

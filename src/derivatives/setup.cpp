@@ -194,7 +194,7 @@ Setup load_setup(const Case& settings, const Communicator& comm) {
                                       settings.mesh.scale, settings.file);
     if (!problems.empty()) throw InputError(std::move(problems));
     out.warnings = std::move(warnings);
-    if (auto shortfall = response_shortfall(settings, out.configuration.body_length); !shortfall.empty())
+    if (auto shortfall = response_shortfall(settings, out.configuration); !shortfall.empty())
       out.warnings.push_back("no derivatives will be had: " + shortfall);
   });
   return out;

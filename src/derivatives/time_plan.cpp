@@ -20,9 +20,11 @@ constexpr Real response_share = 0.1;
 constexpr Real least_steps_of_passage = 12;
 
 /// t* in which it does.
-Real passage_time(Real mach, Real body_length) {
-  const Real lengths = mach > 1 ? mach / (mach - 1) : std::max(mach / (1 - std::min(mach, 0.99)), 2.0);
-  return 2 * lengths * body_length;
+Real passage_time(Real mach, const Configuration& configuration) {
+  constexpr Real nearest = 0.01;  // to the speed of sound
+  if (mach > 1)
+    return 2 * mach / std::max(mach - 1, nearest) * (configuration.body.upper.x - configuration.body.lower.x);
+  return 2 * std::max(mach / std::max(1 - mach, nearest), 2.0) * configuration.body_length;
 }
 
 }  // namespace
@@ -39,19 +41,19 @@ TimePlan time_plan(const Case& settings, const Motion& motion) {
           {unsteady.inner_tolerance * response_share, amplitude, unsteady.max_inner}};
 }
 
-std::string response_shortfall(const Case& settings, Real body_length) {
+std::string response_shortfall(const Case& settings, const Configuration& configuration) {
   const auto& [kind, unsteady] = std::tie(settings.motion.kind, settings.unsteady);
   const bool is_ramp = kind == MotionKind::ramp_alpha;
   if (!is_ramp && kind != MotionKind::step_alpha && kind != MotionKind::step_q) return {};
-  const Real passage = passage_time(settings.freestream.mach, body_length);
+  const Real passage = passage_time(settings.freestream.mach, configuration);
   const Real recorded = is_ramp ? ramp_transient * unsteady.duration : unsteady.duration;
-  if (recorded < passage)
+  constexpr Real told = 0.999;  // to the digits of what is told, which will then do
+  if (recorded < told * passage)
     return fmt::format(
-        "the response is not over: {}unsteady.duration = {:g} is less than the t* = {:.3g} in which the "
-        "slowest "
-        "wave crosses the body",
+        "the response is not over: {}unsteady.duration = {:g} is less than the t* = {:.4g} in which "
+        "the slowest wave crosses the body",
         is_ramp ? "half of " : "", unsteady.duration, passage);
-  if (const Real steps = passage * unsteady.steps / unsteady.duration; steps < least_steps_of_passage)
+  if (const Real steps = passage * unsteady.steps / unsteady.duration; steps < told * least_steps_of_passage)
     return fmt::format(
         "the time steps are too long for the response: {:.2g} while the slowest wave crosses the body, of "
         "{:g} "

@@ -6,6 +6,7 @@
 #include "derivatives/case.hpp"
 #include "march/dual_time.hpp"
 #include "motion/motion.hpp"
+#include "space/configuration.hpp"
 
 namespace alphadot {
 
@@ -20,9 +21,9 @@ TimePlan time_plan(const Case& settings, const Motion& motion);
 
 /// Why no derivatives can be taken from a step or a ramp that is marched as [unsteady] says, however well
 /// each time step converges; empty where they can. A response is not over before the slowest wave has crossed
-/// the body, of `body_length` in reference lengths: in a supersonic stream the sound that runs against it
-/// while it is carried away, in a subsonic one the sound that runs ahead, or twice the stream itself. A time
+/// the body: in a supersonic stream, along it, the sound that runs against it while it is carried away; in a
+/// subsonic one, along the body's longest side, the sound that runs ahead, or twice the stream itself. A time
 /// step that is too long for that wave does not follow the response.
-std::string response_shortfall(const Case& settings, Real body_length);
+std::string response_shortfall(const Case& settings, const Configuration& configuration);
 
 }  // namespace alphadot

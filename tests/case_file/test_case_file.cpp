@@ -242,6 +242,8 @@ INSTANTIATE_TEST_SUITE_P(
         BadCase{"mach = \"fast\"", 5, "must be a number from 0.01 to 100, not \"fast\""},
         BadCase{"mach = true", 5, "not true"}, BadCase{"mach = [1]", 5, "not an array of 1"},
         BadCase{"mach = 1979-05-27", 5, "not a date"}, BadCase{"mach.x = 2", 5, "not a table"},
+        BadCase{"mach = 2\n[estimates]\nreynolds = 5000", 7, "estimates.reynolds = 5000 is below 10000"},
+        BadCase{"mach = 2\n[estimates]\ntransition = 1", 7, "estimates.transition = 1 is below 10000"},
         BadCase{"mach = 2\ngamma = 1", 6, "must be a number from 1.01 to 5, not 1"},
         BadCase{"mach = 2\nalpha = 200", 6, "freestream.alpha must be a number from -180 to 180"},
         BadCase{"mach = 2\nmahc = 3", 6, "unknown key freestream.mahc; did you mean freestream.mach?"},

@@ -17,6 +17,7 @@ sys.path[:0] = [str(CASES / "sharp_cone"), str(CASES.parent / "scripts")]
 import compare
 import gmsh
 from meshing import toolbox as meshing
+from run_csv import rows_of
 
 STEADY = table("sharp_cone/reference/exact_cone_steady.csv")
 NAMES = ("CN_alpha", "CN_q", "Cm_q", "CN_alphadot", "Cm_alphadot")
@@ -63,13 +64,37 @@ class Derivatives(ExactCase):
             with self.subTest(name):
                 self.assertLess(abs(medium[name] - EXACT[name]), abs(tiny[name] - EXACT[name]))
 
+    def test_a_step_of_a_degree(self) -> None:
+        """Within its ± of the linear solves on the same mesh, CA, which is even in the angle, too."""
+        settings = {"motion.amplitude": 1.0, "unsteady.duration": 4.8, "unsteady.steps": 96}
+        with tempfile.TemporaryDirectory() as folder:
+            step = run(Path(folder), "run", "sharp_cone/step.toml", "cone_tiny.msh", settings)["derivatives"]
+        linear = derivatives("derivatives.toml", "cone_tiny.msh")
+        for name in ("CA_alpha", "CN_alpha", "Cm_alpha", "CA_alphadot", "CN_alphadot", "Cm_alphadot"):
+            with self.subTest(name):
+                self.assertLessEqual(abs(step[name]["value"] - linear[name]), step[name]["uncertainty"])
+
     def test_zeros_of_symmetry(self) -> None:
         # At no incidence CA is even in alpha, q and alphadot. Limiters have kinks in a flow that is its own mirror image.
         settings = {"freestream.mach": 6.0, "space.flux": "van_leer", "space.limiter": "mlp_u2"}
-        with tempfile.TemporaryDirectory() as folder:
-            found = run(Path(folder), "derivatives", "sharp_cone/derivatives.toml", "cone_tiny.msh", settings)["derivatives"]
-        for name in ("CA_alpha", "CA_q", "CA_alphadot"):
-            self.assertLessEqual(abs(found[name]["value"]), found[name]["uncertainty"], name)
+        case, mesh = "sharp_cone/derivatives.toml", "cone_tiny.msh"
+        with tempfile.TemporaryDirectory() as name:
+            folder = Path(name)
+            found = run(folder, "derivatives", case, mesh, settings)["derivatives"]
+            entries = [("whole", key, found[key]["value"], found[key]["uncertainty"]) for key in ("CA_alpha", "CA_q", "CA_alphadot")]
+            wall = [row for row in rows_of(folder / "components.csv") if row["name"].startswith("CA_")]
+            self.assertTrue(wall)
+            entries += [("wall", row["name"], row["value"], row["uncertainty"]) for row in wall]
+            adjoint = run(folder, "adjoint", case, mesh, settings, options=("--of", "CA,CA_alphadot", "--overwrite"))
+            entries += [("adjoint", row["name"], row["value"], row["uncertainty"]) for row in rows_of(folder / "adjoint.csv")
+                        if row["name"] in ("CA_alpha", "CA_q", "CA_alphadot")]  # fmt: skip
+            run(folder, "frequency", case, mesh, settings, options=("--k", "0.05", "--overwrite"))
+            for row in rows_of(folder / "frequency.csv"):
+                if row["coefficient"] == "CA":
+                    entries += [(row["part"], row["variable"], row[part], row[f"{part}_uncertainty"]) for part in ("in_phase", "out_of_phase")]
+        self.assertGreater(len(entries), 12)
+        for *what, value, uncertainty in entries:
+            self.assertLessEqual(abs(float(value)), float(uncertainty), what)
 
     def test_full_model_is_the_same_in_yaw(self) -> None:
         # Turned by a right angle an axisymmetric body meets the same flow: the nose to starboard for the nose up. The mesh is its own

@@ -137,6 +137,13 @@ TEST_F(PartitionedMesh, RefusesOtherFiles) {
   EXPECT_TRUE(is_hdf5(path));
   EXPECT_FALSE(is_partitioned_mesh(path));
   expect_error(path, "not a mesh prepared by alphadot partition");
+  // A name tells another program's file that cannot be opened, and never one that can.
+  const auto stub = in_folder("stub.msh.h5"), named = in_folder("named.msh.h5");
+  if (comm.is_root()) std::ofstream(stub, std::ios::binary) << "\x89HDF\r\n\x1a\n";
+  comm.barrier();
+  expect_error(stub, "meshes of Fluent are not read");
+  prepare(named, 1, comm);
+  EXPECT_EQ(read_partitioned_mesh_header(named).cells, cells);
   const auto text = in_folder("text.h5");
   if (comm.is_root()) std::ofstream(text) << "$MeshFormat";
   comm.barrier();

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "io/gmsh_reader.hpp"
 #include "io/readers/small_meshes.hpp"
 #include "io/temporary_folder.hpp"
 #include "support/box_mesh.hpp"
@@ -70,7 +71,6 @@ TEST_F(MeshReader, NamesWhatOtherProgramsWrite) {
   expect_parts(error_in(write("ply.su2", "ply\nformat ascii 1.0\n")), {"PLY"});
   expect_parts(error_in(write("nastran.msh", "$ Created by Gmsh\nGRID    1\n")),
                {"Nastran", "lose their names"});
-  expect_parts(error_in(write("stub.msh.h5", "\x89HDF\r\n\x1a\n")), {"Fluent"});
   expect_parts(error_in(write("b.msh", "(0 \"GAMBIT to Fluent File\")\n(2 3)\n")), {"Fluent", "CGNS"});
   expect_parts(error_in(write("blank.msh", "\n (0 \"GAMBIT to Fluent File\")\n(2 3)\n")), {"Fluent", "CGNS"});
   for (const char* page : {"<!DOCTYPE html>\n<html>", "\r\n<!doctype HTML>", "\xef\xbb\xbf<HTML>"})
@@ -218,6 +218,14 @@ TEST(MeshSamples, WhatOnlyAPartOfIsUsed) {
   const MeshOfFile curved = read_mesh(sample("second_order.msh"));
   ASSERT_EQ(curved.notes.size(), 1u);
   expect_parts(curved.notes[0], {"24 volume elements of higher order", "curvature", "lost"});
+}
+
+TEST(MeshSamples, OneFileOfAMeshThatIsSplitIntoSeveral) {
+  std::ifstream file(sample("partitioned.msh"));
+  std::string part{std::istreambuf_iterator<char>(file), {}};
+  const std::string count = "$PartitionedEntities\n2\n";
+  part.replace(part.find(count), count.size(), "$PartitionedEntities\n3\n");
+  expect_parts(test::error_of([&] { read_gmsh(part, "part.msh"); }), {"2 of 3 partitions", "in one file"});
 }
 
 TEST(MeshSamples, HexahedronAndSurfacesWithoutGroups) {
