@@ -15,12 +15,12 @@ from pathlib import Path
 
 import numpy as np
 
+from sweep import fly_folder
 from sweep.database import COEFFICIENTS
 from sweep.grid import Grid
 
 STATIC = ("cL", "cQ", "cD", "cm", "cn", "cl")
 MOMENTS = {"cm": "Cm", "cn": "Cn", "cl": "Cl"}
-FLY = Path(__file__).with_name("fly_rocketpy.py")
 
 
 def write(folder: Path, grid: Grid, unit: float, axial: bool) -> list[str]:
@@ -41,12 +41,7 @@ def write(folder: Path, grid: Grid, unit: float, axial: bool) -> list[str]:
     else:
         for name, numbers in linear.items():
             write_table(folder / "linear" / f"{name}.csv", {"mach": grid.mach}, name, numbers)
-    reference = grid.reference
-    with open(folder / "reference.csv", "w", newline="") as file:
-        writer = csv.writer(file, lineterminator="\n")
-        writer.writerow(("area_m2", "length_m", "moment_center_m"))
-        writer.writerow((reference["area"] * unit**2, reference["length"] * unit, reference["moment_center"][0] * unit))
-    shutil.copyfile(FLY, folder / "fly.py")
+    fly_folder.complete(folder, grid, unit, "fly_rocketpy.py")
     return left_out
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from sweep import datcom, jsbsim, matlab, rocketpy_surface, tidy
+from sweep import datcom, fly_folder, jsbsim, matlab, rocketpy_surface, tidy
 from sweep.controls import read_controls
 from sweep.database import Point, read_points
 from sweep.errors import SweepError
@@ -47,8 +47,10 @@ def write_series(sweep: Sweep, points: list[Point], folder: Path, wanted: str | 
     span = lambda name, values: f"{len(values)} {name}"
     lines = [f"from series '{series}', {span('Mach numbers', grid.mach)} x {span('alpha', grid.alpha)} x {span('beta', grid.beta)}:"]
     if "jsbsim" in formats:
-        (folder / "aerodynamics.jsbsim.xml").write_text(jsbsim.aerodynamics(grid, controls, sweep.title))
-        lines.append("aerodynamics.jsbsim.xml")
+        (folder / "jsbsim").mkdir(exist_ok=True)
+        (folder / "jsbsim" / "aerodynamics.xml").write_text(jsbsim.aerodynamics(grid, controls, sweep.title))
+        fly_folder.complete(folder / "jsbsim", grid, sweep.unit, "fly_jsbsim.py")
+        lines.append("jsbsim/: aerodynamics.xml, fly.py")
     if "datcom" in formats:
         (folder / "coefficients.txt").write_text(datcom.text(grid, sweep.title))
         lines.append("coefficients.txt")

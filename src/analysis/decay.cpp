@@ -48,6 +48,7 @@ std::optional<std::complex<Real>> predicted_root(const VectorXd& time, const Vec
 struct Fit {
   std::array<Real, 3> value, random;  // damping, frequency, mean
   Real rms;
+  Real cosine, sine;  // of the swing at the first sample
 };
 
 /// Gauss and Newton's iteration; time is zero at the first sample.
@@ -74,9 +75,34 @@ std::optional<Fit> fit_from(std::complex<Real> root, const VectorXd& time, const
     if (!std::isfinite(damping) || !(k > 0)) return std::nullopt;
     if (std::abs(damping_change) + std::abs(k_change) > 1e-9 * k) continue;
     const VectorXd random = fit.uncertainty();
-    return Fit{{damping, k, fit.parameters(0)}, {k * random(3), k * random(4), random(0)}, fit.rms()};
+    return Fit{{damping, k, fit.parameters(0)},
+               {k * random(3), k * random(4), random(0)},
+               fit.rms(),
+               linear(1),
+               linear(2)};
   }
   return std::nullopt;
+}
+
+/// By how much the swing's size changes damping and frequency, from its second and third harmonics: of
+/// y'' + k^2 (y + a y^2 + b y^3) + c y^2 y' = 0 about y = A cos k t these are -a A / 6 and b A^2 / 32 of it
+/// in phase and c A^2 / (32 k) behind by a quarter, while k changes by the share 3 b A^2 / 8 - 5 a^2 A^2 / 12
+/// and the damping by c A^2 / 8 (Lindstedt and Poincare).
+std::array<Real, 2> changes_by_amplitude(const Fit& fit, const VectorXd& time, const VectorXd& y) {
+  const auto [damping, k, mean] = fit.value;
+  MatrixXd basis(time.size(), 7);
+  basis.col(0).setOnes();
+  for (int n = 1; n <= 3; ++n) {
+    const Eigen::ArrayXd envelope = (-n * damping * time.array()).exp();
+    basis.col(2 * n - 1) = envelope * (n * k * time.array()).cos();
+    basis.col(2 * n) = envelope * (n * k * time.array()).sin();
+  }
+  const VectorXd c = basis.colPivHouseholderQr().solve(y);
+  const Real amplitude = std::hypot(fit.cosine, fit.sine), phase = std::atan2(fit.sine, fit.cosine);
+  const Real second = std::hypot(c(3), c(4)) / amplitude;
+  const std::complex<Real> third =
+      std::complex<Real>{c(5), c(6)} * std::polar(Real{1} / amplitude, -3 * phase);
+  return {4 * k * std::abs(third.imag()), k * (12 * std::abs(third.real()) + 15 * second * second)};
 }
 
 VectorXd vector_of(std::span<const Real> values) {
@@ -116,6 +142,8 @@ Decay fit_decay(std::span<const Real> time, std::span<const Real> angle, Real ti
     const Real change = other ? other->value[i] - fit->value[i] : fit->value[i];
     out[i] = {fit->value[i], std::hypot(fit->random[i], change)};
   }
+  const auto by_amplitude = changes_by_amplitude(*fit, t, y);
+  for (std::size_t i = 0; i < by_amplitude.size(); ++i) out[i] += {0, by_amplitude[i]};
   if (time_step > 0) {
     const std::complex<Real> found{-out[0].value, out[1].value};
     const std::complex<Real> exact = 2 / time_step * std::tanh(Real{0.5} * time_step * found);
@@ -141,10 +169,14 @@ EstimatedDerivatives free_pitch_derivatives(const ForceHistory& history, std::sp
   const auto fit = [](const MatrixXd& columns, const VectorXd& y) {
     return least_squares(columns, y, VectorXd::Ones(y.size()));
   };
+  const auto a = basis.col(1).array(), rate_column = basis.col(2).array();
+  MatrixXd higher(n, 7);
+  higher << basis, a.square().matrix(), (a * rate_column).matrix(), a.cube().matrix(),
+      (a.square() * rate_column).matrix();
   const MatrixXd late_basis = basis.bottomRows(n - n / 3);
   const std::array columns{std::pair{Variable::alpha, of_alpha}, std::pair{Variable::q_plus_alphadot, of_q}};
   EstimatedDerivatives out;
-  DerivativeSetOf<Real> of_fit, inner, of_step;
+  DerivativeSetOf<Real> of_fit, inner, of_step, amplitude;
   const Real theta = decay.frequency.value * history.time_step;
   for (int c = 0; c < Coefficients::size(); ++c) {
     const VectorXd y = vector_of(history.load(c)).tail(n);
@@ -152,19 +184,22 @@ EstimatedDerivatives free_pitch_derivatives(const ForceHistory& history, std::sp
         history.bounds.empty() ? VectorXd(VectorXd::Zero(n)) : VectorXd(vector_of(history.bound(c)).tail(n));
     const LeastSquares whole = fit(basis, y);
     const VectorXd change = fit(late_basis, later(y)).parameters - whole.parameters,
-                   random = whole.uncertainty(), worst = whole.worst_case(bounds);
+                   random = whole.uncertainty(), worst = whole.worst_case(bounds),
+                   small = fit(higher, y).parameters;  // of a small motion
     for (std::size_t i = 0; i < columns.size(); ++i) {
       const auto [variable, unit] = columns[i];
       const auto column = static_cast<Eigen::Index>(i) + 1;
       out.derivatives[variable][c].value = whole.parameters(column) / unit;
       of_fit[variable][c] = std::hypot(random(column), change(column)) / unit;
       inner[variable][c] = worst(column) / unit;
+      amplitude[variable][c] = std::abs(small(column) - whole.parameters(column)) / unit;
       of_step[variable][c] = i == 0 ? 0 : theta * theta / 3 * std::abs(whole.parameters(column)) / unit;
     }
   }
   out.add("fit", of_fit);
   out.add("inner", inner);
   out.add("time_step", of_step);
+  out.add("amplitude", amplitude);
   return out;
 }
 

@@ -10,8 +10,8 @@
 namespace alphadot {
 
 /// y = mean + exp(-damping t*) (a cos k t* + b sin k t*). Half widths hold the fit's random part, correlated
-/// in time, what the fit to the later two thirds of the window says otherwise, as where the motion is not
-/// linear, and all that was taken off for the time step.
+/// in time, what the fit to the later two thirds of the window says otherwise, what the second and third
+/// harmonics tell of terms that are not linear in the angle, and all that was taken off for the time step.
 struct Decay {
   Estimate frequency;  ///< k = omega l / (2V)
   Estimate damping;    ///< per unit of t*; negative where the motion grows
@@ -33,8 +33,8 @@ Decay fit_decay(std::span<const Real> time, std::span<const Real> angle, Real ti
 
 /// Derivatives by alpha and q + alphadot of a motion in pitch alone: least squares on X = X_0 + X_alpha alpha
 /// + X_q_plus_alphadot q* in the window of its decay; `rate` is q*. Half widths: the fit's as in Decay, the
-/// bounds' worst case, and what BDF2 with the history's time step at most adds to the part of a rate. Throws
-/// InputError.
+/// bounds' worst case, what BDF2 with the history's time step at most adds to the part of a rate, and what
+/// terms up to the third order in the angle change. Throws InputError.
 EstimatedDerivatives free_pitch_derivatives(const ForceHistory& history, std::span<const Real> rate,
                                             const Decay& decay);
 

@@ -119,7 +119,7 @@ Adjoint adjoint_of(const AdjointProblem& problem, Real orders, Field field, Bloc
   for (const Real product : record.functionals.back()) sensitivity.push_back(-product);
   const auto scales = scales_of(sensitivity, body_size);
   const auto error = remaining_error(record.norms, record.functionals, scales, record.drop(), orders,
-                                     problem.inherited_error);
+                                     bends + problem.inherited_error);
   return {.name = problem.name,
           .field = std::move(field),
           .sensitivity = change_of(sensitivity),

@@ -57,7 +57,7 @@ bool solve_all(FlowCase& flow, SensitivitySolver& solver, Responses& responses, 
 
 /// For what a step of Newton's method leaves to the next, also of a component that it happens not to move:
 /// shown to hold from one decade on.
-constexpr Real step_safety = 2, of_other_components = 0.3;
+constexpr Real step_safety = 5, of_other_components = 0.3;
 
 /// What is large beside a column of derivatives. Forces and moments count alike with an arm between them that
 /// is the body's size, `arm` reference lengths, so that no choice of these matters.

@@ -73,7 +73,7 @@ Sensitivity sensitivity_of(const SensitivityProblem& problem, Real orders, std::
   out.iterations = iterations;
   const auto left = [&](std::span<const std::vector<Real>> functionals, std::span<const Real> scales) {
     return remaining_error(record.norms, functionals, scales, out.relative_residual, orders,
-                           problem.rate_error);
+                           bends + problem.rate_error);
   };
   const auto scales = scales_of(out.total, body_size, 1);
   const auto error = left(totals, scales);

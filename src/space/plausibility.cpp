@@ -256,6 +256,11 @@ class Judge {
         largest * plausible::largest_area < 1 || largest * plausible::smallest_area > 1)
       warn(fmt::format("reference.area is {:.4g} times the body's largest projected area{}", 1 / largest,
                        remedy));
+    else if (facts_.is_section && std::abs(1 / seen.z - 1) > plausible::planform_share)
+      warn(fmt::format(
+          "reference.area is {:.4g} times the planform of the section that the planes of symmetry cut, as "
+          "reference.model = \"{}\" counts it: coefficients of a section are per chord times width",
+          1 / seen.z, reference.half_model ? "half" : "full"));
     if (const Real lengths = body_lengths_away(reference.moment_center); lengths > plausible::farthest_center)
       warn(fmt::format("reference.moment_center is {:.4g} body lengths away from the body{}", lengths,
                        remedy));

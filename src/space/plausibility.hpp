@@ -20,6 +20,8 @@ inline constexpr Real shortest_body = 0.02, longest_body = 200;
 /// Reference area over the largest projection of the walls. Frontal, base, planform and side areas of one
 /// body lie within a factor of 50; wrong units are a factor of 100 at least for centimetres, squared.
 inline constexpr Real smallest_area = 1e-3, largest_area = 1e3;
+/// By which the area of a section may differ from its planform, as of one that is turned or has a gap.
+inline constexpr Real planform_share = 0.05;
 /// Of the moment centre from the body's box, in body lengths: it is on the body or near it, and never farther
 /// than a body is long but by a mistake.
 inline constexpr Real farthest_center = 3;

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <complex>
 #include <random>
+#include <tuple>
+#include <utility>
 
 #include "core/error.hpp"
 
@@ -80,6 +82,52 @@ TEST(Decay, SaysThatAMotionIsNotLinear) {
   EXPECT_GT(found.frequency.uncertainty, 0.01 * swing.k);
 }
 
+/// y'' + k^2 (y + square y^2 + cube y^3) + (2 damping + fluid y^2) y' = 0 from rest at 1, integrated by the
+/// classical method of Runge and Kutta.
+struct Spring {
+  Real k = 0.02, damping = 0.0004, square = 0, cube = 0, fluid = 0;
+
+  Real acceleration(Real y, Real v) const {
+    return -k * k * (y + square * y * y + cube * y * y * y) - (2 * damping + fluid * y * y) * v;
+  }
+  /// Angles, rates.
+  std::pair<std::vector<Real>, std::vector<Real>> swing(const std::vector<Real>& time) const {
+    constexpr int substeps = 20;
+    std::vector<Real> angles{1}, rates{0};
+    Real y = 1, v = 0;
+    for (std::size_t i = 1; i < time.size(); ++i) {
+      const Real h = (time[i] - time[i - 1]) / substeps;
+      for (int j = 0; j < substeps; ++j) {
+        const Real v2 = v + h / 2 * acceleration(y, v), a2 = acceleration(y + h / 2 * v, v2);
+        const Real v3 = v + h / 2 * a2, a3 = acceleration(y + h / 2 * v2, v3);
+        const Real v4 = v + h * a3, a4 = acceleration(y + h * v3, v4);
+        const Real a1 = acceleration(y, v);
+        y += h / 6 * (v + 2 * v2 + 2 * v3 + v4);
+        v += h / 6 * (a1 + 2 * a2 + 2 * a3 + a4);
+      }
+      angles.push_back(y);
+      rates.push_back(v);
+    }
+    return {angles, rates};
+  }
+};
+
+// Of springs and dampers that are not linear the half widths hold what a small swing would have.
+TEST(Decay, SaysWhatTheAmplitudeDoes) {
+  const auto time = Swing{.step = 5, .steps = 190}.time();
+  for (const Spring spring : {Spring{.cube = 0.1}, Spring{.cube = -0.1}, Spring{.square = 0.15},
+                              Spring{.fluid = 0.001}, Spring{.damping = 0, .cube = 0.05, .fluid = 0.0005}}) {
+    const auto found = fit_decay(time, spring.swing(time).first, 0);
+    const Real exact = std::sqrt(spring.k * spring.k - spring.damping * spring.damping);
+    const Real k_error = std::abs(found.frequency.value - exact),
+               error = std::abs(found.damping.value - spring.damping);
+    EXPECT_LE(k_error, found.frequency.uncertainty) << spring.cube << " " << spring.square;
+    EXPECT_LE(error, found.damping.uncertainty) << spring.cube << " " << spring.fluid;
+    EXPECT_LT(found.frequency.uncertainty, 10 * k_error + 2e-5);
+    EXPECT_LT(found.damping.uncertainty, 10 * error + 4e-4);
+  }
+}
+
 TEST(Decay, RefusesWhatDoesNotSwing) {
   const auto refuses = [](const Swing& swing, const std::string& why) {
     try {
@@ -118,6 +166,26 @@ TEST(Decay, GivesDerivativesOfFreePitch) {
   EXPECT_NEAR(found.at(Variable::alpha).CN.value, 9, 1e-8);
   EXPECT_NEAR(found.at(Variable::q_plus_alphadot).CN.value, 0, 1e-6);
   EXPECT_NEAR(found.at(Variable::q_plus_alphadot).Cm.uncertainty, 310 * std::pow(0.02 * 4, 2) / 3, 1e-3);
+}
+
+TEST(Decay, DerivativesHaveThePartOfTheAmplitude) {
+  const auto time = Swing{.step = 5, .steps = 190}.time();
+  const Spring spring{.square = 0.05, .cube = 0.1, .fluid = 0.001};
+  ForceHistory history;
+  history.time = time;
+  history.time_step = 5;
+  std::vector<Real> rate;
+  std::tie(history.angle, rate) = spring.swing(time);
+  for (std::size_t i = 0; i < time.size(); ++i) {
+    Coefficients c;
+    c.Cm = spring.acceleration(history.angle[i], rate[i]);
+    history.loads.push_back(c);
+  }
+  const auto found = free_pitch_derivatives(history, rate, fit_decay(time, history.angle, 0));
+  const auto by_alpha = found.at(Variable::alpha).Cm, by_rate = found.at(Variable::q_plus_alphadot).Cm;
+  EXPECT_GT(std::abs(by_alpha.value + spring.k * spring.k), 0.02 * spring.k * spring.k);
+  EXPECT_LE(std::abs(by_alpha.value + spring.k * spring.k), by_alpha.uncertainty);
+  EXPECT_LE(std::abs(by_rate.value + 2 * spring.damping), by_rate.uncertainty);
 }
 
 }  // namespace

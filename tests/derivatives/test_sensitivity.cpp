@@ -72,6 +72,8 @@ TEST_P(SensitivityTest, IsTheDerivativeOfSteadyStates) {
   const auto response =
       SensitivitySolver(middle.steady.iteration, middle.conditions, options()).solve({mach_problem})[0];
   EXPECT_LT(response.relative_residual, 1e-8);
+  // However deep the solve: within 0.002 degrees derivatives of steady flows of cones and finners change so.
+  EXPECT_GT(norm(response.total_error.force), 6e-6 * norm(response.total.force));
   for (Index cell = 0; cell < box.domain.owned_cells; ++cell)
     for (int i = 0; i < 5; ++i) {
       const Real difference = above.steady.iteration.flow()[cell][i] - below.steady.iteration.flow()[cell][i];

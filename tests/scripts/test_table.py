@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import csv
 import math
+import shutil
 import subprocess
 import sys
 import unittest
@@ -18,6 +19,7 @@ from scipy.io import loadmat
 from stub_runs import finish, finish_all
 from workspace import HEAD, Workspace
 
+from sweep.atmosphere import air_at
 from sweep.plan import read_sweep
 
 A, X, R, EPS, CA = 7.0, 0.6, 0.05, 0.3, 0.35
@@ -84,7 +86,7 @@ class Tables(Workspace):
         flight = {"speed": SPEED, "pressure": PRESSURE, "area": AREA, "length": LENGTH}
         for mach, alpha, beta in points:
             for motion in MOTIONS:
-                found = jsbsim_loads(self.table / "aerodynamics.jsbsim.xml", flown(mach, alpha, beta, **flight, **motion))
+                found = jsbsim_loads(self.table / "jsbsim/aerodynamics.xml", flown(mach, alpha, beta, **flight, **motion))
                 wanted = loads(mach, math.radians(alpha), math.radians(beta), **motion)
                 for axis, value in wanted.items():
                     self.assertAlmostEqual(found[axis], value, delta=1e-6 * (1 + abs(value)), msg=(axis, mach, alpha, beta, motion))
@@ -94,7 +96,7 @@ class Tables(Workspace):
         self.check_jsbsim([(1.5, 0, 0), (2, 4, 3), (3, -4, -3), (2, 1, -1)])
         # Linear between Mach numbers, and the edge's value outside.
         flight = {"speed": SPEED, "pressure": PRESSURE, "area": AREA, "length": LENGTH}
-        normal = lambda mach, alpha: jsbsim_loads(self.table / "aerodynamics.jsbsim.xml", flown(mach, alpha, **flight))["Z"]
+        normal = lambda mach, alpha: jsbsim_loads(self.table / "jsbsim/aerodynamics.xml", flown(mach, alpha, **flight))["Z"]
         self.assertAlmostEqual(normal(2.5, 4), 0.5 * (normal(2, 4) + normal(3, 4)), places=6)
         self.assertAlmostEqual(normal(5, 9), normal(3, 4), places=9)
 
@@ -112,7 +114,7 @@ class Tables(Workspace):
         flight = {"speed": SPEED, "pressure": PRESSURE, "area": AREA, "length": LENGTH}
         for alpha, beta in ((0, 2), (0, -3)):
             for motion in ({}, {"r": 1.0}, {"betadot": -2.0}):
-                found = jsbsim_loads(self.table / "aerodynamics.jsbsim.xml", flown(2, alpha, beta, **flight, **motion))
+                found = jsbsim_loads(self.table / "jsbsim/aerodynamics.xml", flown(2, alpha, beta, **flight, **motion))
                 wanted = loads(2, math.radians(alpha), math.radians(beta), **motion)
                 for axis in ("Y", "YAW"):
                     self.assertAlmostEqual(found[axis], wanted[axis], delta=1e-9 * abs(wanted[axis]))
@@ -154,6 +156,50 @@ class Tables(Workspace):
             wanted = loads(2, alpha, beta)
             np.testing.assert_allclose(Q_S * force, (wanted["Y"], wanted["Z"], wanted["X"]), atol=1e-6)
 
+    def test_jsbsim_flies_as_small_disturbances_do(self) -> None:
+        """A coast in JSBSim itself: root of the short period, the two ways of moving that the equations of motion give by hand. With the
+        tail's loads per rad, k = q S / m V and m = q S l / I, w = V alpha on axes that turn with q, and the drag that slows the flight."""
+        program = shutil.which("JSBSim") or shutil.which("JSBSim", path="/usr/games")
+        if not program:
+            self.skipTest("JSBSim is not installed")
+        self.made(GRID)
+        mass, inertia, mach = 400.0, 6.0, 2.0
+        command = [sys.executable, "-B", str(self.table / "jsbsim/fly.py"), "--program", program, "--keep", str(self.folder / "kept")]
+        command += f"--mass {mass} --inertia 0.05 {inertia} --center 0.5 --mach {mach} --alpha 2 --altitude 1000 --seconds 1".split()
+        command += ["--step", "2e-5"]
+        done = subprocess.run(command, capture_output=True, text=True)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        self.assertEqual(len(done.stdout.splitlines()), 102)
+        with open(self.folder / "kept/flight.csv") as file:
+            time, _, alpha = np.array([row[:3] for row in list(csv.reader(file))[1:]], dtype=float).T
+        air = air_at(1000.0)
+        speed = mach * air.sound_speed
+        q_s = 0.5 * air.density * speed**2 * AREA
+        k, m, t = q_s / (mass * speed), q_s * LENGTH / inertia, LENGTH / (2 * speed)
+        c = model(mach, 0, 0)[1]
+        lag = 1 + k * t * c["CN_alphadot"]
+        own, turning = -k * (c["CN_alpha"] - CA) / lag, (1 - k * t * c["CN_q"]) / lag
+        matrix = [[own, turning], [
+            m * (c["Cm_alpha"] + t * c["Cm_alphadot"] * own), m * t * (c["Cm_q"] + c["Cm_alphadot"] * turning)
+        ]]  # fmt: skip
+        exact = max(np.linalg.eigvals(matrix), key=lambda root: root.imag)
+        # A sample is a sum of the two before it and a constant.
+        every, step = alpha[::10], time[10] - time[0]
+        rows = np.column_stack([every[1:-1], every[:-2], np.ones(len(every) - 2)])
+        first, second, _ = np.linalg.lstsq(rows, every[2:], rcond=None)[0]
+        found = np.log(0.5 * first + np.sqrt(complex(0.25 * first**2 + second))) / step
+        self.assertAlmostEqual(found.imag / exact.imag, 1.0, delta=0.002)
+        self.assertAlmostEqual(found.real / exact.real, 1.0, delta=0.02)
+        without = 0.5 * (own + m * t * c["Cm_q"])
+        self.assertGreater(abs(without / exact.real - 1), 0.1, "alphadot matters here")
+
+    def test_fly_without_jsbsim_says_so(self) -> None:
+        self.made(GRID)
+        command = [sys.executable, "-B", str(self.table / "jsbsim/fly.py"), "--program", ""]
+        done = subprocess.run([*command, *"--mass 20 --inertia 0.05 6 --center 0.5 --mach 2".split()], capture_output=True, text=True)
+        self.assertEqual(done.returncode, 77)
+        self.assertIn("name it by --program", done.stdout)
+
     def test_fly_without_rocketpy_says_so(self) -> None:
         self.made(GRID)
         command = [sys.executable, "-B", str(self.table / "rocketpy/fly.py")]
@@ -178,7 +224,7 @@ class Tables(Workspace):
         self.table = self.folder / "runs/table"
         flight = {"speed": SPEED, "pressure": PRESSURE, "area": AREA, "length": LENGTH}
         for mach, alpha, degrees in ((1.5, 0, -5), (2, 4, 10), (2, 2, 5), (2, 0, 0)):
-            found = jsbsim_loads(self.table / "aerodynamics.jsbsim.xml", flown(mach, alpha, **flight, **{"fcs/pitch-deg": degrees}))
+            found = jsbsim_loads(self.table / "jsbsim/aerodynamics.xml", flown(mach, alpha, **flight, **{"fcs/pitch-deg": degrees}))
             wanted = loads(mach, math.radians(alpha), 0.0)
             self.assertAlmostEqual(found["Z"], wanted["Z"] - Q_S * 0.01 * gain(mach) * degrees)
             self.assertAlmostEqual(found["PITCH"], wanted["PITCH"] - Q_S_L * 0.05 * gain(mach) * degrees)
@@ -205,7 +251,7 @@ class Tables(Workspace):
         flight = {"speed": SPEED, "pressure": PRESSURE, "area": AREA, "length": LENGTH}
         for mach, alpha, pitch, roll in ((1.5, 0, 0.1, 0), (2, 4, -0.05, 0.02), (2, 2, 0, 0)):
             turned = {"fcs/tail_pitch-rad": pitch, "fcs/roll-rad": roll}
-            found = jsbsim_loads(self.table / "aerodynamics.jsbsim.xml", flown(mach, alpha, **flight, **turned))
+            found = jsbsim_loads(self.table / "jsbsim/aerodynamics.xml", flown(mach, alpha, **flight, **turned))
             wanted, by = loads(mach, math.radians(alpha), 0.0), gain(mach)
             self.assertAlmostEqual(found["Z"], wanted["Z"] - Q_S * by["CN_tail_pitch"] * pitch)
             self.assertAlmostEqual(found["PITCH"], wanted["PITCH"] + Q_S_L * by["Cm_tail_pitch"] * pitch)

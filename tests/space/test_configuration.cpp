@@ -265,6 +265,26 @@ TEST(Plausibility, AcceptsSectionsAndTunnels) {
   EXPECT_TRUE(look(half_cube(), kinds, case_of(true)).findings.problems.empty());
 }
 
+// Of a slab of width 0.5 and chord 1 the planform is 0.5; counted as a half, 1.
+TEST(Plausibility, WarnsOfASectionsArea) {
+  const Mesh slab = around_a_cube({.cells = {12, 1, 8}, .lower = {-1, 0, -2}, .upper = {5, 0.5, 2}},
+                                  {1, -1, -0.5}, {2, 1, 0.5});
+  Kinds kinds = half_kinds;
+  kinds[3] = plane;
+  const auto warned = [&](bool half, Real area) {
+    auto settings = case_of(half);
+    settings.reference.area = area;
+    const auto seen = look(slab, kinds, settings);
+    return std::ranges::any_of(seen.findings.warnings, [](const std::string& text) {
+      return text.find("times the planform of the section") != std::string::npos;
+    });
+  };
+  EXPECT_FALSE(warned(true, 1));
+  EXPECT_FALSE(warned(false, 0.5));
+  EXPECT_TRUE(warned(false, 1));
+  EXPECT_TRUE(warned(true, 0.5));
+}
+
 TEST(Plausibility, RefusesASymmetryPatchThatIsNotPlane) {
   Mesh mesh = half_cube();
   transform(mesh, [](const Vec3& p) {
