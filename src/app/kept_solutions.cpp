@@ -223,12 +223,11 @@ Oscillations kept_oscillations(CaseRun& run) {
       auto [k, response] = oscillation_of(numbers->second);
       out.put_back({k, variable}, std::move(response));
     }
-    const auto k = restart->numbers.find(entry_of(variable, "latest"));
-    if (k == restart->numbers.end()) continue;
+    if (!restart->numbers.contains(entry_of(variable, "0"))) continue;
     auto& latest = out.latest()[variable];
-    latest = {k->second.at(0), std::vector<Primitive<Real>>(cells), std::vector<Primitive<Real>>(cells)};
-    fields.push_back({entry_of(variable, "real"), latest.real});
-    fields.push_back({entry_of(variable, "imaginary"), latest.imaginary});
+    latest.resize(2 * cells);
+    fields.push_back({entry_of(variable, "real"), std::span(latest).first(cells)});
+    fields.push_back({entry_of(variable, "imaginary"), std::span(latest).last(cells)});
   }
   take(run, fields, out.solved().size(), "linear solves");
   return out;
@@ -241,9 +240,9 @@ void keep(CaseRun& run, Oscillations& oscillations) {
     head.numbers[entry_of(key.variable, std::to_string(count[key.variable]++))] = numbers_of(key.k, response);
   std::vector<CheckpointField> fields;
   for (auto& [variable, latest] : oscillations.latest()) {
-    head.numbers[entry_of(variable, "latest")] = {latest.k};
-    fields.push_back({entry_of(variable, "real"), latest.real});
-    fields.push_back({entry_of(variable, "imaginary"), latest.imaginary});
+    const auto cells = latest.size() / 2;
+    fields.push_back({entry_of(variable, "real"), std::span(latest).first(cells)});
+    fields.push_back({entry_of(variable, "imaginary"), std::span(latest).last(cells)});
   }
   run.contents().save(head, std::move(fields));
 }

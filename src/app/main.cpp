@@ -22,6 +22,7 @@
 #include "case_file/case_file.hpp"
 #include "core/error.hpp"
 #include "core/log.hpp"
+#include "core/memory.hpp"
 #include "io/provenance.hpp"
 
 namespace {
@@ -118,6 +119,7 @@ const CLI::Option* add_run_arguments(CLI::App& verb, CaseArguments& arguments) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  alphadot::keep_freed_memory();
   // Programs of their own, which want no MPI; their options are their own, too.
   const std::string verb = argc > 1 ? argv[1] : "";
   if (verb == "mesh") return become_companion("mesh.py", argc, argv);

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <complex>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <type_traits>
@@ -26,7 +28,10 @@ struct BlockProblem {
   std::string name;
   Real orders;  ///< decades that its norm is to drop by
   std::span<const Five<Real>> guess = {};
-  Real reference_norm = 0;  ///< that the decades count from; 0: the norm at the start
+  Real reference_norm = 0;    ///< that the decades count from; 0: the norm at the start
+  Real imaginary_weight = 1;  ///< of the defect's imaginary part in its norm
+  /// How an error of the guess reaches the functionals is known: it may be good enough as it is.
+  bool guess_is_sampled = false;
 };
 
 /// The way of one problem to its solution: linear functionals of it (of this rank only) and the norm of the
@@ -49,6 +54,7 @@ struct BlockRecord {
 ///                                        complex field first all real parts, then all imaginary ones
 ///   scale(image, out), unscale(in, out)  D of the norm |D (A U + b)| and its inverse
 ///   transposed                           Transposed::yes or no, for the preconditioner
+///   turn(field, sign)                    of complex fields: to where the preconditioner is to work, and back
 template <int N, class Operator>
 class BlockSolve {
  public:
@@ -56,6 +62,7 @@ class BlockSolve {
   using Fields = std::array<std::span<const Five<Real>>, N>;
   using Images = std::array<std::span<Five<Real>>, N>;
   static constexpr std::size_t parts = Operator::parts;
+  using Scalar = std::conditional_t<parts == 1, Real, std::complex<Real>>;
 
   BlockSolve(Operator& of, ImplicitIteration& iteration, const Conditions<Real>& conditions,
              std::array<BlockProblem, N> problems, const DerivativeSettings& settings,
@@ -66,9 +73,8 @@ class BlockSolve {
         settings_(settings),
         go_on_(go_on),
         cells_(static_cast<std::size_t>(iteration.discretization().domain().owned_cells)),
-        space_(parts * cells_, static_cast<int>(parts) * settings.directions,
-               [this](std::vector<Real>& numbers) { iteration_.sum(numbers); }),
-        preconditioner_(iteration, conditions, Operator::transposed) {
+        space_(cells_, settings.directions, [this](std::vector<Real>& numbers) { iteration_.sum(numbers); }),
+        conditions_(conditions) {
     for (auto* arrays : {&fields_, &images_, &corrections_, &defects_})
       for (Field& array : *arrays) array.resize(parts * cells_);
     begin();
@@ -99,15 +105,25 @@ class BlockSolve {
   /// of a further iteration or, since those of a Krylov space are carried along, in place of the latest.
   void evaluate(bool is_further) {
     operator_.apply(const_spans(fields_), spans(images_), true);
-    std::vector<Real> squares;
     for (std::size_t k = 0; k < N; ++k) {
       operator_.scale(images_[k], defects_[k]);
-      squares.push_back(square(defects_[k]));
       if (!is_further) {
         records_[k].functionals.pop_back();
         records_[k].norms.pop_back();
       }
       records_[k].functionals.push_back(operator_.functionals(k));
+    }
+    add_norms();
+  }
+
+  /// Of the present defects. Collective: one all-reduce.
+  void add_norms() {
+    std::vector<Real> squares;
+    for (std::size_t k = 0; k < N; ++k) {
+      const std::span<const Five<Real>> defect(defects_[k]);
+      squares.push_back(square(defect.first(cells_)));
+      if (parts == 2)
+        squares.back() += std::pow(problems_[k].imaginary_weight, 2) * square(defect.last(cells_));
     }
     iteration_.sum(squares);
     for (std::size_t k = 0; k < N; ++k) add_norm(k, std::sqrt(squares[k]));
@@ -132,25 +148,33 @@ class BlockSolve {
 
   /// corrections_ = -P^-1 (A U + b), from the defects; images_ serves as a buffer.
   void precondition() {
+    if (!preconditioner_) preconditioner_.emplace(iteration_, conditions_, Operator::transposed);
     std::array<LinearSystem, parts * N> systems;
     for (std::size_t k = 0; k < N; ++k) {
       operator_.unscale(defects_[k], images_[k]);
+      if constexpr (parts == 2) operator_.turn(images_[k], 1);
       for (std::size_t part = 0; part < parts; ++part)
         systems[parts * k + part] = {std::span(images_[k]).subspan(part * cells_, cells_),
                                      std::span(corrections_[k]).subspan(part * cells_, cells_)};
     }
-    preconditioner_.solve(systems);
+    preconditioner_->solve(systems);
+    if constexpr (parts == 2)
+      for (Field& correction : corrections_) operator_.turn(correction, -1);
   }
 
   /// A good guess must improve by a decade too: how its error reaches the functionals shows only then.
   bool all_dropped() const {
     constexpr Real of_guess = 0.1;
     constexpr int fewest = 4;  // from which a rate can be told
-    if (iterations_ < std::min(fewest, settings_.max_iterations) && largest_norm() > 0) return false;
+    const bool all_sampled = std::ranges::all_of(problems_, &BlockProblem::guess_is_sampled);
+    if (!all_sampled && iterations_ < std::min(fewest, settings_.max_iterations) && largest_norm() > 0)
+      return false;
     for (std::size_t k = 0; k < N; ++k) {
       const BlockRecord& record = records_[k];
       if (record.drop() > std::pow(10.0, -problems_[k].orders)) return false;
-      if (record.reference_norm > 0 && record.norms.back() > of_guess * record.norms.front()) return false;
+      if (!problems_[k].guess_is_sampled && record.reference_norm > 0 &&
+          record.norms.back() > of_guess * record.norms.front())
+        return false;
     }
     return true;
   }
@@ -177,11 +201,11 @@ class BlockSolve {
       if (is_stopped()) return;
       const auto growing = std::ranges::find_if(records_, [](const auto& r) { return r.drop() > grown; });
       if (growing == records_.end()) continue;
-      if (!preconditioner_.can_be_damped())
+      if (!preconditioner_->can_be_damped())
         throw DivergedError("the march of the response to " +
                             problems_[static_cast<std::size_t>(growing - records_.begin())].name +
                             " grows: the steady state hides an unstable cell");
-      preconditioner_.damp();
+      preconditioner_->damp();
       begin();
       evaluate(true);
     }
@@ -193,28 +217,29 @@ class BlockSolve {
     for (int used = 0, at_level = 0; used < settings_.max_iterations && !all_dropped();) {
       if (space_.is_full()) space_.clear();
       const Real cycle_start = largest_norm();
-      std::vector<KrylovBasis::System> searches;
+      std::vector<typename KrylovBasis<Scalar>::System> searches;
       for (std::size_t k = 0; k < N; ++k)
-        searches.push_back({defects_[k], records_[k].functionals.back(), {}, 0});
+        searches.push_back({defects_[k], scalars_of(records_[k].functionals.back()), {}, 0});
       bool stalls = false;
       while (used < settings_.max_iterations && !space_.is_full() && !all_dropped() && !stalls &&
              largest_norm() > single_precision * cycle_start) {
         widen_space();
         space_.reduce(searches);
         for (std::size_t k = 0; k < N; ++k) {
-          records_[k].functionals.push_back(searches[k].functionals);
-          add_norm(k, searches[k].norm);
+          records_[k].functionals.push_back(reals_of(searches[k].functionals));
+          if (parts == 1) add_norm(k, searches[k].norm);
         }
+        if (parts == 2) add_norms();
         ++used, ++at_level, ++iterations_;
         if (is_stopped()) return;
         stalls =
             at_level >= static_cast<int>(Preconditioner::stalled_iterations) &&
-            preconditioner_.can_be_damped() &&
+            preconditioner_->can_be_damped() &&
             std::ranges::any_of(records_, [](const auto& r) { return Preconditioner::has_stalled(r.norms); });
       }
       for (std::size_t k = 0; k < N; ++k) space_.move(fields_[k], searches[k].coefficients);
       if (stalls) {
-        preconditioner_.damp();
+        preconditioner_->damp();
         at_level = 0;
       }
       evaluate(false);
@@ -224,31 +249,30 @@ class BlockSolve {
   void widen_space() {
     precondition();
     operator_.apply(const_spans(corrections_), spans(images_), false);
-    std::vector<KrylovBasis::Candidate> candidates;
+    std::vector<typename KrylovBasis<Scalar>::Candidate> candidates;
     for (std::size_t k = 0; k < N; ++k) {
       operator_.scale(images_[k], images_[k]);
-      candidates.push_back({corrections_[k], images_[k], operator_.functionals(k)});
+      candidates.push_back({corrections_[k], images_[k], scalars_of(operator_.functionals(k))});
     }
-    if constexpr (parts == 2) {
-      // Shares are real numbers: with each direction comes the one that is i times it, at no application.
-      std::array<std::array<Field, 2>, N> turned;
-      for (std::size_t k = 0; k < N; ++k) {
-        turned[k] = {times_i(corrections_[k]), times_i(images_[k])};
-        candidates.push_back({turned[k][0], turned[k][1], times_i(candidates[k].functionals)});
-      }
-      space_.add(candidates);
-    } else {
-      space_.add(candidates);
-    }
+    space_.add(candidates);
   }
 
-  /// (real, imaginary) -> (-imaginary, real)
-  template <class T>
-  static std::vector<T> times_i(const std::vector<T>& field) {
-    std::vector<T> out(field.size());
-    const auto half = static_cast<std::ptrdiff_t>(field.size() / 2);
-    std::transform(field.begin() + half, field.end(), out.begin(), [](const T& x) { return Real(-1) * x; });
-    std::copy(field.begin(), field.begin() + half, out.begin() + half);
+  /// Complex numbers are kept all real parts first, then all imaginary ones.
+  static std::vector<Scalar> scalars_of(const std::vector<Real>& reals) {
+    if constexpr (parts == 1) {
+      return reals;
+    } else {
+      const std::size_t half = reals.size() / 2;
+      std::vector<Scalar> out;
+      for (std::size_t i = 0; i < half; ++i) out.emplace_back(reals[i], reals[half + i]);
+      return out;
+    }
+  }
+  static std::vector<Real> reals_of(const std::vector<Scalar>& scalars) {
+    std::vector<Real> out;
+    for (const Scalar scalar : scalars) out.push_back(std::real(scalar));
+    if constexpr (parts == 2)
+      for (const Scalar scalar : scalars) out.push_back(std::imag(scalar));
     return out;
   }
 
@@ -258,8 +282,9 @@ class BlockSolve {
   DerivativeSettings settings_;
   const std::function<bool()>& go_on_;
   std::size_t cells_;
-  KrylovBasis space_;
-  Preconditioner preconditioner_;
+  KrylovBasis<Scalar> space_;
+  const Conditions<Real>& conditions_;
+  std::optional<Preconditioner> preconditioner_;  // from the first iteration on
   std::array<BlockRecord, N> records_;
   std::array<Field, N> fields_, images_, corrections_, defects_;
   int iterations_ = 0;

@@ -16,17 +16,23 @@ namespace alphadot {
 
 namespace {
 
-std::vector<Variable> oscillating(const Case& settings) {
+/// Variables that are solved for together: on a symmetric body those that answer alike.
+std::vector<std::vector<Variable>> oscillating(const Case& settings) {
   using enum Variable;
-  if (settings.reference.half_model) return {alpha, q};
-  return {alpha, q, beta, p, r};
+  if (settings.reference.half_model) return {{alpha, q}};
+  return {{alpha, q}, {beta, r}, {p}};
 }
 
-/// Decades for a response at k: its part in phase with the rate is k times smaller than the other, and as
-/// many decades better is it solved for, and one more.
-DerivativeSettings settings_at(Real k, DerivativeSettings settings) {
-  settings.orders += 1 + std::max(Real{0}, -std::log10(k));
+/// One decade better than responses to a constant change: each load is made of two parts.
+DerivativeSettings settings_for(DerivativeSettings settings) {
+  settings.orders += 1;
   return settings;
+}
+
+Frequency frequency_of(Real k, const Case& settings) {
+  /// By so much a body's passage is longer than its length of reference takes half of.
+  constexpr Real passage = 4;
+  return {k * 2 * settings.freestream.mach / settings.reference.length, std::max(Real{1}, 1 / (passage * k))};
 }
 
 /// The response of one part of the configuration, a row a coefficient that symmetry leaves.
@@ -56,17 +62,8 @@ void add_rows(const std::string& part, Variable variable, Real k, const std::arr
 
 }  // namespace
 
-std::vector<Primitive<Real>> Oscillations::guess(Variable variable, Real k) const {
-  const auto latest = latest_.find(variable);
-  if (latest == latest_.end()) return {};
-  auto out = latest->second.real;
-  for (const auto& w : latest->second.imaginary) out.push_back(k / latest->second.k * w);
-  return out;
-}
-
 void Oscillations::add(Variable variable, Real k, FrequencyResponse response) {
-  const auto middle = response.field.begin() + static_cast<std::ptrdiff_t>(response.field.size() / 2);
-  latest_[variable] = {k, {response.field.begin(), middle}, {middle, response.field.end()}};
+  latest_[variable] = std::move(response.field);
   response.field = {};
   solved_[{k, variable}] = std::move(response);
 }
@@ -74,24 +71,38 @@ void Oscillations::add(Variable variable, Real k, FrequencyResponse response) {
 bool solve_oscillations(FlowCase& flow, const std::vector<Real>& frequencies, Oscillations& oscillations,
                         const SolveObserver& observer) {
   const Case& settings = flow.settings();
-  for (const Real k : frequencies) {
-    FrequencySolver solver(flow.iteration(), flow.conditions(), settings_at(k, settings.derivatives),
-                           observer.go_on);
-    for (const auto variable : oscillating(settings)) {
-      if (oscillations.has(variable, k)) continue;
-      const auto guess = oscillations.guess(variable, k);
-      FrequencyResponse response;
-      if (!solver.solve(
-              {fmt::format("{} at k = {:g}", name(variable), k), change_of(variable, settings.freestream),
-               k * 2 * settings.freestream.mach / settings.reference.length, guess,
-               steady_error(flow.steady_orders())},
-              response))
-        return false;
-      spdlog::info("k = {:<8g} {:6} {:3} iterations, linear residual {:.1e}", k, name(variable),
-                   response.iterations, response.relative_residual);
-      oscillations.add(variable, k, std::move(response));
-      if (observer.solved) observer.solved();
+  for (const auto& group : oscillating(settings)) {
+    std::vector<Real> open;
+    std::vector<Frequency> asked;
+    for (const Real k : frequencies) {
+      if (std::ranges::all_of(group, [&](Variable variable) { return oscillations.has(variable, k); }))
+        continue;
+      open.push_back(k);
+      asked.push_back(frequency_of(k, settings));
     }
+    if (open.empty()) continue;
+    std::vector<Oscillation> sources;
+    for (const auto variable : group)
+      sources.push_back({std::string(name(variable)), change_of(variable, settings.freestream)});
+    FrequencySolver solver(flow.iteration(), flow.conditions(), settings_for(settings.derivatives), sources,
+                           steady_error(flow.steady_orders()), observer.go_on);
+    for (const auto variable : group)
+      if (const auto known = oscillations.latest().find(variable); known != oscillations.latest().end())
+        solver.know(known->second);
+    bool is_kept = true;  // in a checkpoint, which one is made for what took some work
+    const auto take = [&](std::size_t number, std::vector<FrequencyResponse> responses) {
+      const Real k = open[number];
+      const int iterations = responses.front().iterations;
+      for (std::size_t i = 0; i < group.size(); ++i) {
+        spdlog::info("k = {:<8g} {:6} {:3} iterations, linear residual {:.1e}", k, name(group[i]), iterations,
+                     responses[i].relative_residual);
+        oscillations.add(group[i], k, std::move(responses[i]));
+      }
+      is_kept = iterations > 0;
+      if (observer.solved && is_kept) observer.solved();
+    };
+    if (!solver.solve(asked, take)) return false;
+    if (observer.solved && !is_kept) observer.solved();
   }
   return true;
 }
@@ -105,8 +116,11 @@ std::vector<FrequencyRow> frequency_rows(const FlowCase& flow, const std::vector
     shortfalls.push_back(fmt::format("responses are of a flow {:.1f} decades down, and need {:g}",
                                      flow.steady_orders(), deep_steady_orders));
   std::vector<FrequencyRow> rows;
+  std::vector<Variable> variables;
+  for (const auto& group : oscillating(settings))
+    variables.insert(variables.end(), group.begin(), group.end());
   for (const Real k : frequencies)
-    for (const auto variable : oscillating(settings)) {
+    for (const auto variable : variables) {
       const auto& response = oscillations.at(variable, k);
       auto shortfall =
           shortfall_of_solve(fmt::format("{} at k = {:g}", name(variable), k), response.relative_residual,

@@ -13,7 +13,7 @@
 namespace alphadot {
 
 /// The responses to oscillating variables that have been solved for. Of their fields the latest of each
-/// variable is kept, which the next frequency's is near to.
+/// variable is kept, for those of other frequencies begin from it.
 class Oscillations {
  public:
   struct Key {
@@ -21,28 +21,20 @@ class Oscillations {
     Variable variable;
     auto operator<=>(const Key&) const = default;
   };
-  struct Latest {
-    Real k = 0;
-    std::vector<Primitive<Real>> real, imaginary;  ///< [owned_cells]
-  };
-
   bool has(Variable variable, Real k) const { return solved_.contains({k, variable}); }
   /// Without its field.
   const FrequencyResponse& at(Variable variable, Real k) const { return solved_.at({k, variable}); }
-  /// What the next frequency's solution is near to: the latest field, its imaginary part grown with k. Empty
-  /// before the first.
-  std::vector<Primitive<Real>> guess(Variable variable, Real k) const;
   void add(Variable variable, Real k, FrequencyResponse response);
 
   const std::map<Key, FrequencyResponse>& solved() const { return solved_; }
-  /// The latest field of each variable, to be kept or to be put back.
-  std::map<Variable, Latest>& latest() { return latest_; }
+  /// The latest field of each variable, real part and then imaginary one, to be kept or to be put back.
+  std::map<Variable, std::vector<Primitive<Real>>>& latest() { return latest_; }
   /// Puts back a response without its field.
   void put_back(Key key, FrequencyResponse response) { solved_[key] = std::move(response); }
 
  private:
   std::map<Key, FrequencyResponse> solved_;
-  std::map<Variable, Latest> latest_;
+  std::map<Variable, std::vector<Primitive<Real>>> latest_;
 };
 
 /// Solves for the responses of the steady flow that `flow` has marched to, at the reduced frequencies k =

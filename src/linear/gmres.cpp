@@ -49,12 +49,12 @@ void Gmres::solve_one(const LinearSystem& system) {
   inside_.solve({&first, 1});
   space_.clear();
   const Real target = left_over * std::sqrt(comm_.sum(square(defect_)));
-  KrylovBasis::System search{defect_, {}, {}, 0};
+  KrylovBasis<Real>::System search{defect_, {}, {}, 0};
   do {
     apply(defect_, product_);
     const LinearSystem next{product_, image_};
     inside_.solve({&next, 1});
-    const KrylovBasis::Candidate candidate{defect_, image_, {}};
+    const KrylovBasis<Real>::Candidate candidate{defect_, image_, {}};
     const int before = space_.size();
     space_.add({&candidate, 1});
     if (space_.size() == before) break;  // the space holds all that the preconditioner can find

@@ -38,7 +38,7 @@ class Gmres final : public LinearSolver {
   const Communicator& comm_;
   const Residual& residual_;
   LinearSolver& inside_;
-  KrylovBasis space_;
+  KrylovBasis<Real> space_;
   std::optional<Linearisation> linearisation_;
   std::optional<Tangent<1>> tangent_;
   std::vector<Real> time_scale_;          // [owned_cells] of dU/dW

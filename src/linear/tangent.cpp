@@ -199,5 +199,6 @@ std::array<std::vector<Load>, N> Tangent<N>::loads() const {
 template class Tangent<1>;
 template class Tangent<2>;
 template class Tangent<3>;
+template class Tangent<4>;
 
 }  // namespace alphadot

@@ -95,5 +95,6 @@ template class Reconstruction<Real>;
 template class Reconstruction<Changes<1>>;
 template class Reconstruction<Changes<2>>;
 template class Reconstruction<Changes<3>>;
+template class Reconstruction<Changes<4>>;
 
 }  // namespace alphadot

@@ -120,16 +120,16 @@ TEST_F(ReductionsTest, AreOneForNewDirectionsAndOneForTheDefects) {
       out[cell][0] = std::sin(frequency * static_cast<Real>(box.domain.cell_ids[static_cast<Index>(cell)]));
     return out;
   };
-  KrylovBasis space(cells, 4, [&](std::vector<Real>& numbers) { comm.sum(numbers); });
+  KrylovBasis<Real> space(cells, 4, [&](std::vector<Real>& numbers) { comm.sum(numbers); });
   const auto added_with = [&](std::vector<std::vector<Primitive<Real>>> images) {
     const auto directions = images;
-    std::vector<KrylovBasis::Candidate> candidates;
+    std::vector<KrylovBasis<Real>::Candidate> candidates;
     for (std::size_t k = 0; k < images.size(); ++k) candidates.push_back({directions[k], images[k], {}});
     return reductions_of([&] { space.add(candidates); });
   };
   EXPECT_EQ(added_with({vector(1.3), vector(0.7)}), 1);
   auto defect = vector(0.4), other_defect = vector(0.3);
-  std::vector<KrylovBasis::System> systems{{defect, {}, {}, 0}, {other_defect, {}, {}, 0}};
+  std::vector<KrylovBasis<Real>::System> systems{{defect, {}, {}, 0}, {other_defect, {}, {}, 0}};
   EXPECT_EQ(reductions_of([&] { space.reduce(systems); }), 1);
   auto again = vector(1.3);
   again[0][0] += 0.01;
