@@ -272,6 +272,11 @@ class CaseReader {
       if (!is_control(c, name))
         complain_about({"deflections." + name}, fmt::format("deflections.{} names no control", name),
                        "name controls of [[controls]]");
+    if (c.space.deflection == DeflectionKind::transpiration && !c.deflections.empty() &&
+        c.motion.treatment != TreatmentKind::field_velocity)
+      complain_about({"space.deflection", "motion.treatment"},
+                     "walls turn by transpiration on a mesh that stays only",
+                     "leave out motion.treatment, or set space.deflection = \"mesh\"");
   }
 
   /// What no single key can tell.

@@ -116,8 +116,8 @@ CaseKey deflections_key() {
   key.path = "deflections.*";
   key.type = angle.type();
   key.doc =
-      "degrees that a control is deflected by in the steady flow: its walls turn and the mesh around "
-      "them deforms, which small angles allow";
+      "degrees that a control is deflected by in the steady flow: its walls turn as space.deflection says, "
+      "which small angles allow";
   key.limits = CaseKey::Limits{angle.from, angle.to};
   key.read = [angle](std::string_view name, const toml::node& value, Case& c) {
     Real degrees = 0;
@@ -207,7 +207,11 @@ std::vector<CaseKey> make_keys() {
       .key("entropy_fix", &SpaceSettings::entropy_fix, NumberValue{.from = 0, .to = 1},
            "Harten's delta as a share of the spectral radius")
       .key("dissipative_lee", &SpaceSettings::dissipative_lee, FlagValue{},
-           "first order and Van Leer's flux in the cells behind walls that face aft, in a supersonic stream");
+           "first order and Van Leer's flux in the cells behind walls that face aft, in a supersonic stream")
+      .key("deflection", &SpaceSettings::deflection, WordValue{words_of<DeflectionKind>},
+           "how walls of controls turn, by [deflections] and in linear solves: mesh: the mesh deforms with "
+           "them; transpiration: it stays and gas passes their faces as along turned walls, for thin panels "
+           "and small angles");
 
   Table(keys, "steady", &Case::steady)
       .key("scheme", &SteadySettings::scheme, WordValue{words_of<SchemeKind>}, "implicit scheme")

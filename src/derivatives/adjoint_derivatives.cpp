@@ -44,6 +44,9 @@ void check_has_transpose(const Case& settings) {
   if (settings.steady.scheme == SchemeKind::lu_sgs)
     throw InputError(settings.file, 0, "the adjoint needs an implicit scheme that has a transpose",
                      "set steady.scheme = \"block_lu_sgs\"");
+  if (settings.space.deflection == DeflectionKind::transpiration && !settings.deflections.empty())
+    throw InputError(settings.file, 0, "the adjoint knows no walls that are deflected by transpiration",
+                     "set space.deflection = \"mesh\"");
 }
 
 AdjointDerivatives::AdjointDerivatives(FlowCase& flow, std::vector<Functional> functionals,

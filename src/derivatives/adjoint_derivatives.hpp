@@ -57,7 +57,7 @@ class AdjointDerivatives {
   AdjointSolver solver_;
 };
 
-/// Throws InputError when the implicit scheme of a case has no transpose.
+/// Throws InputError when the implicit scheme of a case has no transpose, or its deflected walls.
 void check_has_transpose(const Case& settings);
 
 }  // namespace alphadot

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "march/turning.hpp"
+
 namespace alphadot {
 
 namespace {
@@ -10,6 +12,10 @@ std::vector<Variable> rates_of(std::vector<Variable> controls, const Case& setti
   if (!settings.derivatives.control_rates) return {};
   for (auto& control : controls) control = rate_of_control(control);
   return controls;
+}
+
+const ControlSettings& settings_of(const FlowCase& flow, Variable control) {
+  return *std::ranges::find(flow.settings().controls, name(control), &ControlSettings::name);
 }
 
 }  // namespace
@@ -48,12 +54,27 @@ Terms terms_of(Variable variable, const Case& settings) {
 }
 
 Deflection deflection_of(const FlowCase& flow, Variable control) {
-  const auto& found = *std::ranges::find(flow.settings().controls, name(control), &ControlSettings::name);
+  const auto& found = settings_of(flow, control);
   return deflection(flow.discretization(), turning_patches(found, flow.settings().mesh), hinge_of(found),
                     flow.communicator());
 }
 
+namespace {
+
+HeldFlowChange change_by_turn(FlowCase& flow, Variable control) {
+  const bool is_rate = is_control_rate(control);
+  const auto& turning = settings_of(flow, is_rate ? control_of_rate(control) : control);
+  const auto patches = turning_patches(turning, flow.settings().mesh);
+  return change_by_turn(flow.iteration(), flow.conditions(), [&](Real by) {
+    return turned_further(flow.discretization(), patches, hinge_of(turning), is_rate ? 0 : by,
+                          is_rate ? by : 0);
+  });
+}
+
+}  // namespace
+
 HeldFlowChange change_by_control(FlowCase& flow, Variable control, bool limiter_held) {
+  if (flow.settings().space.deflection == DeflectionKind::transpiration) return change_by_turn(flow, control);
   if (is_control_rate(control))
     return change_by_velocity(flow.iteration(), flow.conditions(),
                               deflection_of(flow, control_of_rate(control)).displacement);

@@ -13,6 +13,7 @@
 #include "derivatives/loads.hpp"
 #include "linear/block_lu_sgs.hpp"
 #include "linear/lu_sgs.hpp"
+#include "march/turning.hpp"
 #include "partition/aft_faces.hpp"
 #include "space/lee_cells.hpp"
 
@@ -76,7 +77,7 @@ void check_control(const ControlSettings& control, const FlowCase& flow) {
     throw InputError(flow.settings().file, 0,
                      fmt::format("control {} turns walls out of the plane of symmetry", control.name),
                      "use a full model, or a hinge across that plane");
-  if (at_walls > much)
+  if (at_walls > much && flow.settings().space.deflection == DeflectionKind::mesh)
     spdlog::warn(
         "control {}: where its walls meet others that stay they lose up to {:.0f} % of their displacement; "
         "name all patches of what turns, and mesh a gap where it has one",
@@ -136,8 +137,12 @@ void FlowCase::deflect_controls() {
   for (const auto& control : settings().controls) check_control(control, *this);
   for (const auto& [name, degrees] : settings().deflections) {
     const auto& control = *std::ranges::find(settings().controls, name, &ControlSettings::name);
-    if (!deflect(setup_.domain, discretization_, turning_patches(control, settings().mesh), hinge_of(control),
-                 degrees * radians_per_degree, comm_))
+    const auto patches = turning_patches(control, settings().mesh);
+    const Hinge hinge = hinge_of(control);
+    const Real angle = degrees * radians_per_degree;
+    if (settings().space.deflection == DeflectionKind::transpiration)
+      discretization_.set_turned_walls(turned_further(discretization_, patches, hinge, angle));
+    else if (!deflect(setup_.domain, discretization_, patches, hinge, angle, comm_))
       throw InputError(settings().file, 0,
                        fmt::format("the mesh folds while {} is deflected by {:g} degrees", name, degrees),
                        "deflect it less, or mesh it deflected");

@@ -104,6 +104,14 @@ std::vector<Real> growth(const Subdomain& domain, std::span<const Vec3> velocity
   return out;
 }
 
+/// What `side` is with R(W) and the loads of faces as `residual` has them.
+void evaluate(HeldFlowChange& side, Residual& residual, const Discretization& discretization,
+              ImplicitIteration& iteration, const Conditions<Real>& conditions) {
+  residual.evaluate(iteration.flow(), conditions, discretization.space().order, side.residual);
+  side.of_faces =
+      face_loads(discretization, excess_pressures(discretization, residual), iteration.moment_center());
+}
+
 }  // namespace
 
 HeldFlowChange change_by_displacement(ImplicitIteration& iteration, const Conditions<Real>& conditions,
@@ -135,15 +143,27 @@ HeldFlowChange change_by_velocity(ImplicitIteration& iteration, const Conditions
         speeds_of(discretization.domain(), conditions.grid, velocity, side == &out ? step : -step);
     auto moving = conditions;
     moving.face_speeds = &speeds;
-    residual.evaluate(iteration.flow(), moving, discretization.space().order, side->residual);
-    side->of_faces =
-        face_loads(discretization, excess_pressures(discretization, residual), iteration.moment_center());
+    evaluate(*side, residual, discretization, iteration, moving);
   }
   difference(out, below);
   const auto grown = growth(discretization.domain(), velocity);
   for (std::size_t cell = 0; cell < grown.size(); ++cell)
     out.residual[cell] +=
         grown[cell] * conserved(iteration.flow()[static_cast<Index>(cell)], discretization.gamma());
+  out.loads = patch_loads(discretization, out.of_faces);
+  return out;
+}
+
+HeldFlowChange change_by_turn(ImplicitIteration& iteration, const Conditions<Real>& conditions,
+                              const std::function<std::vector<TurnedWall>(Real)>& walls) {
+  Discretization discretization = iteration.discretization();
+  Residual residual(discretization, iteration.communicator());
+  auto out = empty_change(discretization), below = out;
+  for (auto* side : {&below, &out}) {
+    discretization.set_turned_walls(walls(side == &out ? step : -step));
+    evaluate(*side, residual, discretization, iteration, conditions);
+  }
+  difference(out, below);
   out.loads = patch_loads(discretization, out.of_faces);
   return out;
 }

@@ -4,6 +4,7 @@
 
 #include "euler/independent.hpp"
 #include "space/face_geometry.hpp"
+#include "space/turned_walls.hpp"
 
 namespace alphadot {
 
@@ -19,6 +20,7 @@ Linearisation::Linearisation(const Discretization& discretization, const Communi
   if (discretization.space().order > 1) slopes_ = reconstruction.limiter_slopes(flow);
   differentiate_faces(reconstruction);
   differentiate_boundary(reconstruction);
+  differentiate_turned(reconstruction);
 }
 
 void Linearisation::hold_limiter() {
@@ -98,9 +100,45 @@ void Linearisation::differentiate_boundary(const Reconstruction<Real>& reconstru
   }
 }
 
+void Linearisation::differentiate_turned(const Reconstruction<Real>& reconstruction) {
+  constexpr int speed_variable = 5;
+  using Number = Dual<6>;
+  const Subdomain& domain = discretization_.domain();
+  const int order = discretization_.space().order;
+  const Real gamma = discretization_.gamma();
+  for (const TurnedWall& wall : discretization_.turned_walls()) {
+    const auto i = static_cast<std::size_t>(wall.face);
+    const auto [area, normal, center] = boundary_geometry(domain, i);
+    const auto turned = turned_geometry(domain, wall);
+    const auto here = inner_state(domain, flow_, reconstruction, i, order).inside;
+    const auto [there, scaling] = inner_state(domain, flow_, reconstruction, domain.boundary_faces[i].cell,
+                                              turned.center, order);
+    Number speed_here = conditions_.boundary_speed(i, center, normal);
+    Number speed_there = turned_speed(wall, turned, conditions_);
+    TurnedFace by_there{};
+    {
+      Number changing = speed_there;
+      changing.d[speed_variable] = 1;
+      const auto [pressure, flux] =
+          turned_wall_flux(constant<6>(here), normal, speed_here, independent<6>(there), turned.normal,
+                           changing, gamma);
+      by_there = {by_state(area * flux), by_variable(area * flux, speed_variable), {},
+                  pressure.d[speed_variable], scaling};
+      for (int k = 0; k < 5; ++k) by_there.pressure[k] = pressure.d[k];
+    }
+    turned_faces_.push_back(by_there);
+    speed_here.d[speed_variable] = 1;
+    const auto flux = area * turned_wall_flux(independent<6>(here), normal, speed_here, constant<6>(there),
+                                              turned.normal, speed_there, gamma)
+                                 .flux;
+    BoundaryFace& by_here = boundary_faces_[i];
+    by_here = {by_state(flux), by_variable(flux, speed_variable), {}, {}, 0, by_here.scaling};
+  }
+}
+
 std::size_t Linearisation::bytes() const {
   return slopes_.size() * sizeof(LimiterSlope) + faces_.size() * sizeof(Face) +
-         boundary_faces_.size() * sizeof(BoundaryFace);
+         boundary_faces_.size() * sizeof(BoundaryFace) + turned_faces_.size() * sizeof(TurnedFace);
 }
 
 }  // namespace alphadot

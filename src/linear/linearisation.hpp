@@ -32,6 +32,16 @@ class Linearisation {
     Real scaling;
   };
 
+  /// Of a face whose wall has turned, by the state that its cell carries to where the wall is and the speed of
+  /// the wall there; its boundary face has the rest.
+  struct TurnedFace {
+    Matrix there;
+    Five<Real> speed;
+    Five<Real> pressure;
+    Real pressure_by_speed;
+    Real scaling;
+  };
+
   /// About a flow and its reconstruction, the ghosts of both current; a limiter frozen in it stays so. Refers
   /// to the flow.
   Linearisation(const Discretization& discretization, const Communicator& comm, const FlowField<Real>& flow,
@@ -46,12 +56,15 @@ class Linearisation {
   const Conditions<Real>& conditions() const { return conditions_; }
   const std::vector<Face>& faces() const { return faces_; }
   const std::vector<BoundaryFace>& boundary_faces() const { return boundary_faces_; }
+  /// In the order of Discretization::turned_walls().
+  const std::vector<TurnedFace>& turned_faces() const { return turned_faces_; }
   std::span<const LimiterSlope> limiter_slopes() const { return slopes_; }
   std::size_t bytes() const;
 
  private:
   void differentiate_faces(const Reconstruction<Real>& reconstruction);
   void differentiate_boundary(const Reconstruction<Real>& reconstruction);
+  void differentiate_turned(const Reconstruction<Real>& reconstruction);
 
   const Discretization& discretization_;
   const Communicator& comm_;
@@ -60,6 +73,7 @@ class Linearisation {
   std::vector<LimiterSlope> slopes_;
   std::vector<Face> faces_;
   std::vector<BoundaryFace> boundary_faces_;
+  std::vector<TurnedFace> turned_faces_;
 };
 
 }  // namespace alphadot

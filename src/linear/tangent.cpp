@@ -5,6 +5,7 @@
 #include "core/dual.hpp"
 #include "core/prefetch.hpp"
 #include "space/face_geometry.hpp"
+#include "space/turned_walls.hpp"
 
 namespace alphadot {
 
@@ -33,6 +34,7 @@ void Tangent<N>::apply(const Fields& fields, const std::array<ConditionsChange, 
   reconstruction_.update(flow_, discretization_.space().order, [&] {
     interior_faces(0, domain.cut_face_begin);
     boundary_faces();
+    turned_faces();
     turn_axes(changes);
   });
   interior_faces(domain.cut_face_begin, static_cast<Index>(domain.faces.size()));
@@ -109,6 +111,20 @@ void Tangent<N>::boundary_faces() {
 }
 
 template <int N>
+void Tangent<N>::turned_faces() {
+  const Subdomain& domain = discretization_.domain();
+  auto derivatives = linearisation_.turned_faces().begin();
+  for (const TurnedWall& wall : discretization_.turned_walls()) {
+    const auto i = static_cast<std::size_t>(wall.face);
+    const Index cell = domain.boundary_faces[i].cell;
+    const auto there = at_face(cell, turned_geometry(domain, wall).center, derivatives->scaling);
+    add_product(values_[static_cast<std::size_t>(cell)], derivatives->there, there);
+    for (int k = 0; k < 5; ++k) pressures_[i] += derivatives->pressure[k] * there[k];
+    ++derivatives;
+  }
+}
+
+template <int N>
 typename Tangent<N>::Forcing Tangent<N>::forcing_of(const std::array<ConditionsChange, N>& changes,
                                                     const Vec3& axis) {
   Forcing out;
@@ -144,6 +160,14 @@ void Tangent<N>::force_faces(const Forcing& forcing) {
     for (int axis = 0; axis < 3; ++axis)
       add_product(value, derivatives.wind[static_cast<std::size_t>(axis)], forcing.wind[axis]);
     pressures_[i] += derivatives.pressure_by_speed * speed;
+  }
+  auto derivatives = linearisation_.turned_faces().begin();
+  for (const TurnedWall& wall : discretization_.turned_walls()) {
+    const auto i = static_cast<std::size_t>(wall.face);
+    const auto speed = speed_of(turned_geometry(domain, wall));
+    add_product(values_[static_cast<std::size_t>(domain.boundary_faces[i].cell)], derivatives->speed, speed);
+    pressures_[i] += derivatives->pressure_by_speed * speed;
+    ++derivatives;
   }
 }
 

@@ -53,6 +53,7 @@ class Tangent {
   Primitive<Changes<N>> at_face(Index cell, const Vec3& face_center, Real scaling) const;
   void interior_faces(Index begin, Index end);
   void boundary_faces();
+  void turned_faces();
   void force_faces(const Forcing& forcing);
   void turn_axes(const std::array<ConditionsChange, N>& changes);
 

@@ -72,7 +72,7 @@ void Discretization::set_dissipative(std::vector<std::uint8_t> cells) {
 }
 
 std::size_t Discretization::bytes() const {
-  return dissipative_.size() + point_moments_.size() * sizeof(PointMoments) +
+  return turned_walls_.size() * sizeof(TurnedWall) + dissipative_.size() + point_moments_.size() * sizeof(PointMoments) +
          inverse_fit_.size() * sizeof(Symmetric3);
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "core/symmetric3.hpp"
@@ -19,6 +20,14 @@ struct PointMoments {
   /// Makes the weights 1 + lambda . (c_j - x) of the cells give the point the value of any linear field
   /// (Holmes & Connell 1989).
   Vec3 lambda;
+};
+
+/// A face of a wall that has turned while the mesh stays (turned_walls.hpp).
+struct TurnedWall {
+  Index face;      ///< in Subdomain::boundary_faces
+  Vec3 normal;     ///< of unit length, out of the flow
+  Vec3 shift;      ///< of the face's centre
+  Real speed = 0;  ///< of the wall itself along that normal
 };
 
 /// Mesh with boundary conditions and reconstruction geometry of one rank.
@@ -40,6 +49,11 @@ class Discretization {
   /// From now on the marked cells, [total_cells], are dissipative: of first order, with van Leer's flux on
   /// all their faces.
   void set_dissipative(std::vector<std::uint8_t> cells);
+
+  /// From now on these walls, in the order of their faces, are turned, and no others. They know nothing of a
+  /// mesh that is moved.
+  void set_turned_walls(std::vector<TurnedWall> walls) { turned_walls_ = std::move(walls); }
+  const std::vector<TurnedWall>& turned_walls() const { return turned_walls_; }
 
   const Subdomain& domain() const { return domain_; }
   const SpaceSettings& space() const { return space_; }
@@ -78,6 +92,7 @@ class Discretization {
   std::vector<BoundaryKind> patch_kinds_;
   SpaceSettings space_;
   FluxModel flux_, dissipative_flux_;
+  std::vector<TurnedWall> turned_walls_;
   std::vector<std::uint8_t> dissipative_;    // [total_cells] or none
   std::vector<PointMoments> point_moments_;  // [owned_points]
   std::vector<Symmetric3> inverse_fit_;      // [owned_cells]

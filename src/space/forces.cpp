@@ -1,5 +1,7 @@
 #include "space/forces.hpp"
 
+#include "space/turned_walls.hpp"
+
 namespace alphadot {
 
 std::vector<Real> numbers_of(std::span<const Load> loads) {
@@ -33,10 +35,16 @@ std::vector<Load> face_loads(const Discretization& discretization, std::span<con
                              const Vec3& center) {
   const Subdomain& domain = discretization.domain();
   std::vector<Load> out(domain.boundary_faces.size());
-  for (std::size_t i = 0; i < out.size(); ++i) {
-    if (discretization.kind_of(domain.boundary_faces[i]) != BoundaryKind::wall) continue;
-    const Vec3 force = excess_pressures[i] * domain.boundary_normal[i];
-    out[i] = {force, cross(domain.boundary_center[i] - center, force)};
+  const auto set_load = [&](std::size_t i, const Vec3& area, const Vec3& at) {
+    if (discretization.kind_of(domain.boundary_faces[i]) != BoundaryKind::wall) return;
+    const Vec3 force = excess_pressures[i] * area;
+    out[i] = {force, cross(at - center, force)};
+  };
+  for (std::size_t i = 0; i < out.size(); ++i)
+    set_load(i, domain.boundary_normal[i], domain.boundary_center[i]);
+  for (const TurnedWall& wall : discretization.turned_walls()) {
+    const auto [area, normal, at] = turned_geometry(domain, wall);
+    set_load(static_cast<std::size_t>(wall.face), area * normal, at);
   }
   return out;
 }

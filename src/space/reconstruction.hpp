@@ -109,18 +109,24 @@ struct InnerState {
   T scaling;
 };
 
-/// Of a boundary face. At `order` 1 the state of the cell.
+/// Of a cell at a point. At `order` 1 the state of the cell.
 template <class T>
 InnerState<T> inner_state(const Subdomain& domain, const FlowField<T>& flow,
-                          const Reconstruction<T>& reconstruction, std::size_t face, int order) {
-  const Index cell = domain.boundary_faces[face].cell;
+                          const Reconstruction<T>& reconstruction, Index cell, const Vec3& point, int order) {
   const Primitive<T>& w = flow[cell];
   if (order == 1) return {w, T(0)};
-  const auto carried =
-      extrapolated(w, reconstruction[cell], domain.boundary_center[face] - domain.center[cell]);
+  const auto carried = extrapolated(w, reconstruction[cell], point - domain.center[cell]);
   const T scaling = positivity_scaling(carried, w);
   if (scaling < T(1)) return {w + scaling * (carried - w), scaling};
   return {carried, T(1)};
+}
+
+/// Of a boundary face.
+template <class T>
+InnerState<T> inner_state(const Subdomain& domain, const FlowField<T>& flow,
+                          const Reconstruction<T>& reconstruction, std::size_t face, int order) {
+  return inner_state(domain, flow, reconstruction, domain.boundary_faces[face].cell,
+                     domain.boundary_center[face], order);
 }
 
 }  // namespace alphadot

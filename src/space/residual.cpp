@@ -6,6 +6,7 @@
 #include "core/prefetch.hpp"
 #include "euler/boundary.hpp"
 #include "space/face_geometry.hpp"
+#include "space/turned_walls.hpp"
 
 namespace alphadot {
 
@@ -23,6 +24,7 @@ void Residual::evaluate(FlowField<Real>& flow, const Conditions<Real>& condition
   reconstruction_.update(flow, order, [&] {
     interior_faces(flow, conditions, order, 0, domain.cut_face_begin, residual);
     boundary_faces(flow, conditions, order, residual);
+    turned_walls(flow, conditions, order, residual);
     rotating_axes(flow, conditions, residual);
     gusts(flow, conditions, residual);
   });
@@ -165,6 +167,24 @@ void Residual::boundary_faces(const FlowField<Real>& flow, const Conditions<Real
     boundary_pressures_[i] = boundary_pressure(kind, inside, normal, speed, gamma);
     residual[face.cell] += area * boundary_flux(kind, inside, boundary_pressures_[i], conditions.free_stream,
                                                 normal, speed, gamma);
+  }
+}
+
+void Residual::turned_walls(const FlowField<Real>& flow, const Conditions<Real>& conditions, int order,
+                            std::span<Conserved<Real>> residual) {
+  const Subdomain& domain = discretization_.domain();
+  for (const TurnedWall& wall : discretization_.turned_walls()) {
+    const auto i = static_cast<std::size_t>(wall.face);
+    const Index cell = domain.boundary_faces[i].cell;
+    const auto [area, normal, center] = boundary_geometry(domain, i);
+    const auto turned = turned_geometry(domain, wall);
+    const Real speed = conditions.boundary_speed(i, center, normal);
+    const auto [pressure, flux] =
+        turned_wall_flux(inner_state(domain, flow, reconstruction_, i, order).inside, normal, speed,
+                         inner_state(domain, flow, reconstruction_, cell, turned.center, order).inside,
+                         turned.normal, turned_speed(wall, turned, conditions), discretization_.gamma());
+    residual[cell] += area * (flux - wall_flux(boundary_pressures_[i], normal, speed));
+    boundary_pressures_[i] = pressure;
   }
 }
 

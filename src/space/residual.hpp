@@ -45,6 +45,9 @@ class Residual {
   void dissipate(Index first, int count, FaceBatch& batch);
   void boundary_faces(const FlowField<Real>& flow, const Conditions<Real>& conditions, int order,
                       std::span<Conserved<Real>> residual);
+  /// Gives some faces the flux of walls that have turned instead.
+  void turned_walls(const FlowField<Real>& flow, const Conditions<Real>& conditions, int order,
+                    std::span<Conserved<Real>> residual);
   void rotating_axes(const FlowField<Real>& flow, const Conditions<Real>& conditions,
                      std::span<Conserved<Real>> residual);
   void gusts(const FlowField<Real>& flow, const Conditions<Real>& conditions,

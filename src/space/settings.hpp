@@ -27,6 +27,17 @@ inline constexpr Word<LimiterKind> limiter[] = {{"venkatakrishnan", LimiterKind:
 template <>
 inline constexpr std::span<const Word<LimiterKind>> words_of<LimiterKind> = words::limiter;
 
+/// How walls of controls turn: the mesh deforms with them; or it stays, and gas passes their faces as if they
+/// had turned (turned_walls.hpp).
+enum class DeflectionKind { mesh, transpiration };
+
+namespace words {
+inline constexpr Word<DeflectionKind> deflection[] = {{"mesh", DeflectionKind::mesh},
+                                                      {"transpiration", DeflectionKind::transpiration}};
+}
+template <>
+inline constexpr std::span<const Word<DeflectionKind>> words_of<DeflectionKind> = words::deflection;
+
 struct SpaceSettings {
   FluxKind flux = FluxKind::roe;
   int order = 2;
@@ -41,6 +52,7 @@ struct SpaceSettings {
   /// Whether the cells in the lee of walls that face aft are dissipative in a supersonic stream
   /// (lee_cells.hpp).
   bool dissipative_lee = true;
+  DeflectionKind deflection = DeflectionKind::mesh;
 };
 
 }  // namespace alphadot
