@@ -1,12 +1,13 @@
 #!/usr/bin/python3
 """Controls from several sides: linear solves, flows with panels turned, the half and the full model; and what they cost.
 
-  scripts/controls_check.py [DESCRIPTION] [--level coarse] [--degrees 0.5] [--mach 2] [--alpha 0] [--out runs/controls_check]
+  scripts/controls_check.py [DESCRIPTION] [--level coarse] [--degrees 0.5] [--angles 2 5 10] [--mach 2] [--alpha 0] [--out runs/controls_check]
 
 Meshes a description whose fins all turn about the middles of their roots, half and full, and compares, in per cent of the largest number
-of a kind: derivatives by each control with central differences of flows with it deflected (nine decades both); loads of the panels of the
-half model with those of the full one, which differ as the meshes do. Then what a control costs beside a solve for a flight variable, and
-what adjoints cost, which have all controls. Exit code 1 when differences of flows are off by more than --tolerance per cent. Minutes.
+of a kind: derivatives by each control, the mesh deforming and by transpiration, with central differences of flows on deformed meshes (nine
+decades all); one panel at finite angles, by either, with meshes of the turned geometry; loads of the panels of the half model with those of
+the full one, which differ as the meshes do. Then what a control costs beside a solve for a flight variable, and what adjoints cost, which
+have all controls. Exit code 1 when solves with the mesh deforming are off by more than --tolerance per cent. Minutes.
 """
 
 from __future__ import annotations
@@ -26,6 +27,8 @@ from sweep.text import aligned, toml_document
 ROOT = Path(__file__).resolve().parents[1]
 LOADS, PANEL = ("CA", "CN", "Cm"), ("CNp", "Ch", "Cb")
 VARIABLES = ("alpha", "q", "alphadot")
+DEEP = [word for key in ("steady.orders=9", "derivatives.orders=9", "derivatives.max_iterations=300") for word in ("--set", key)]
+TRANSPIRATION = ("--set", "space.deflection=transpiration")
 KIND = {"CA": "CN"}  # forces count alike: CA by a control may be nothing but round-off
 Line = tuple[str, str, float, float]  # name, kind, and a number from either side
 
@@ -43,45 +46,82 @@ class Check:
         self.flow = ["--set", f"freestream.mach={arguments.mach}", "--set", f"freestream.alpha={arguments.alpha}"]
         self.out.mkdir(parents=True, exist_ok=True)
         self.description = self.out / "description.toml"
-        self.description.write_text(toml_document(with_hinges(arguments.description)))
+        self.content = with_hinges(arguments.description)
+        self.description.write_text(toml_document(self.content))
         self.level = arguments.level
 
     def call(self, *words: object) -> None:
         done = subprocess.run(list(map(str, words)), capture_output=True, text=True)
-        if done.returncode not in (0, 5):
+        if done.returncode not in (0, 5) and "folds" not in done.stderr:
             sys.exit(f"controls_check.py: {' '.join(map(str, words))}\n{done.stderr[-2000:]}")
 
-    def mesh(self, model: str) -> Path:
-        folder = self.out / f"mesh_{model}"
+    def mesh(self, model: str, turned: float = 0) -> Path:
+        """With the first of the last fins, and its mirror image, turned by so many degrees."""
+        folder = self.out / (f"mesh_{turned:g}" if turned else f"mesh_{model}")
+        description = self.description
+        if turned:
+            content = tomllib.loads(description.read_text())
+            fins = content["fins"][-1]
+            fins["deflection"] = [turned] + [0.0] * (fins["number"] - 2) + [-turned]
+            description = self.out / f"description_{turned:g}.toml"
+            description.write_text(toml_document(content))
         words = ("-o", folder, "--level", self.level, "--model", model, "--no-picture")
-        self.call("/usr/bin/python3", "-B", ROOT / "scripts/mesh.py", self.description, *words)
+        self.call("/usr/bin/python3", "-B", ROOT / "scripts/mesh.py", description, *words)
         return folder / "case.toml"
 
     def run(self, verb: str, case: Path, name: str, *words: str) -> dict:
         launcher = [os.environ.get("MPIEXEC", "mpirun"), "-n", self.ranks] if self.ranks != "1" else []
         quiet = [word for key in ("output.flow", "output.surface") for word in ("--set", f"{key}=false")]
         self.call(*launcher, self.program, verb, case, "--out", self.out / name, "--overwrite", *self.flow, *quiet, *words)
-        return json.loads((self.out / name / "result.json").read_text())
+        result = self.out / name / "result.json"
+        return json.loads(result.read_text()) if result.exists() else {}
 
     def panels(self, name: str) -> dict[tuple[str, str], float]:
         return {(row["panel"], row["name"]): float(row["value"]) for row in rows_of(self.out / name / "panels.csv")}
 
 
 def differences(check: Check, case: Path, degrees: float) -> float:
-    """Solves beside flows; the largest difference in per cent of the largest of its kind."""
-    deep = ("--set", "steady.orders=9", "--set", "derivatives.orders=9", "--set", "derivatives.max_iterations=300")
-    solved, panels = check.run("derivatives", case, "solves", *deep)["derivatives"], check.panels("solves")
-    controls = list(dict.fromkeys(panel for panel, _ in panels))
-    lines: list[Line] = []
-    for control in controls:
-        turned = lambda sign: (*deep, "--set", f"deflections.{control}={sign * degrees}")
+    """Solves beside flows; the largest difference, the mesh deforming, in per cent of the largest of its kind."""
+
+    def solves(name: str, *words: str) -> dict[str, float]:
+        by_name = check.run("derivatives", case, name, *DEEP, *words)["derivatives"]
+        of_panels = {f"{name} of itself": value for (panel, name), value in check.panels(name).items() if name.endswith(f"_{panel}")}
+        return {name: each["value"] for name, each in by_name.items()} | of_panels
+
+    deforming, passing = solves("solves"), solves("solves_by_transpiration", *TRANSPIRATION)
+    flows: dict[str, tuple[str, float]] = {}  # kind and slope
+    for control in dict.fromkeys(panel for panel, _ in check.panels("solves")):
+        turned = lambda sign: (*DEEP, "--set", f"deflections.{control}={sign * degrees}")
         low, high = (check.run("run", case, f"{control}_{sign:+d}", *turned(sign))["forces"] for sign in (-1, 1))
         slope = lambda low, high: (high - low) / math.radians(2 * degrees)
-        lines += [(f"{name}_{control}", KIND.get(name, name), solved[f"{name}_{control}"]["value"], slope(low[name], high[name])) for name in LOADS]
-        for name in PANEL:
-            by_flows = slope(low["panels"][control][name], high["panels"][control][name])
-            lines.append((f"{name}_{control} of itself", name, panels[control, f"{name}_{control}"], by_flows))
-    return compared(f"solves beside flows at ±{degrees:g} degrees", ("solve", "flows"), lines)
+        flows |= {f"{name}_{control}": (KIND.get(name, name), slope(low[name], high[name])) for name in LOADS}
+        of_itself = {name: slope(low["panels"][control][name], high["panels"][control][name]) for name in PANEL}
+        flows |= {f"{name}_{control} of itself": (name, value) for name, value in of_itself.items()}
+    lines = lambda solved: [(name, kind, solved[name], value) for name, (kind, value) in flows.items()]
+    title = f"beside flows on deformed meshes at ±{degrees:g} degrees"
+    compared(f"solves by transpiration {title}", ("solve", "flows"), lines(passing))
+    return compared(f"solves, the mesh deforming, {title}", ("solve", "flows"), lines(deforming))
+
+
+def finite(check: Check, case: Path, angles: list[float]) -> None:
+    """The first of the last panels turned by finite angles, beside meshes of the turned geometry, which know no limit."""
+    number = len(check.content["fins"])
+    panel = check.content["fins"][-1].get("name", f"fin{number}" if number > 1 else "fin") + "_1"
+    number_and_error = lambda x, true: ("folds", "") if math.isnan(x) else (f"{x:.5g}", f"{100 * (x / true - 1):+.2g}")
+    lines = []
+    for angle in angles:
+        turned = ("--set", f"deflections.{panel}={angle}")
+        runs = {"geometry": (check.mesh("half", angle),), "mesh": (case, *turned), "transpiration": (case, *turned, *TRANSPIRATION)}
+        loads = []
+        for way, (of_case, *words) in runs.items():
+            result = check.run("run", of_case, f"{way}_{angle:g}", *words)
+            forces = result.get("forces") if result.get("status") == "converged" else None
+            loads.append({name: forces[name] for name in ("CN", "Cm")} | forces["panels"][panel] if forces else {})
+        for name in ("CN", "Cm", *PANEL):
+            true, *others = (load.get(name, math.nan) for load in loads)
+            lines.append((f"{angle:g}", name, f"{true:.5g}", *(word for x in others for word in number_and_error(x, true))))
+    heads = ("degrees", "name", "turned geometry", "mesh deforming", "%", "transpiration", "%")
+    print(f"{panel} at finite angles\n{aligned([heads, *lines])}\n", flush=True)
 
 
 def half_and_full(check: Check, half: Path, full: Path) -> None:
@@ -105,20 +145,26 @@ def compared(title: str, heads: tuple[str, str], lines: list[Line]) -> float:
     return max(off)
 
 
-def costs(check: Check, case: Path) -> None:
-    """Processor seconds of the linear solves with and without controls, and of adjoints of CA, CN and Cm, which have any number."""
-    cost = lambda result: result["performance"]["linear_cpu_s"]
-    count = len(dict.fromkeys(panel for panel, _ in check.panels("solves")))
-    every = cost(check.run("derivatives", case, "with_controls"))
-    content = tomllib.loads(case.read_text())
-    plain = case.with_name("plain.toml")
-    plain.write_text(toml_document({key: value for key, value in content.items() if key not in ("controls", "control_sets")}))
-    none = cost(check.run("derivatives", plain, "without_controls"))
-    adjoint = cost(check.run("adjoint", case, "adjoint", "--of", "CA,CN,Cm"))
+def costs(check: Check, half: Path, full: Path) -> None:
+    """Processor seconds of linear solves on the half model, and of adjoints of CN, Cm and Cl on the full one, with and without controls."""
+    cost = lambda verb, case, name, *words: check.run(verb, case, name, *words)["performance"]["linear_cpu_s"]
+    count = lambda case: len(tomllib.loads(case.read_text())["controls"])
+
+    def plain(case: Path) -> Path:
+        content = tomllib.loads(case.read_text())
+        out = case.with_name("plain.toml")
+        out.write_text(toml_document({key: value for key, value in content.items() if key not in ("controls", "control_sets")}))
+        return out
+
+    none, every = cost("derivatives", plain(half), "without_controls"), cost("derivatives", half, "with_controls")
+    of = ("--of", "CN,Cm,Cl")
+    three, with_all = cost("adjoint", plain(full), "plain_adjoint", *of), cost("adjoint", full, "adjoint", *of)
+    each = (every - none) / count(half)
     print(
-        f"solves for alpha, q and alphadot {none:.1f} s of processor, with {count} controls {every:.1f} s: a control"
-        f" {(every - none) / count:.2f} s,"
-        f" {3 * (every - none) / count / none:.2f} of one solve; adjoints of three loads, which have all of them, {adjoint:.1f} s"
+        f"half model: solves for alpha, q and alphadot {none:.1f} s of processor, with {count(half)} controls {every:.1f} s:"
+        f" a control {each:.2f} s, {3 * each / none:.2f} of one solve\n"
+        f"full model: adjoints of CN, Cm and Cl {three:.1f} s, with all {count(full)} controls {with_all:.1f} s:"
+        f" together {3 * (with_all - three) / three:.2f} of one solve"
     )
 
 
@@ -127,6 +173,7 @@ def main() -> int:
     parser.add_argument("description", nargs="?", type=Path, default=ROOT / "cases/canard_tail/missile.toml")
     parser.add_argument("--level", default="coarse")
     parser.add_argument("--degrees", type=float, default=0.5)
+    parser.add_argument("--angles", type=float, nargs="*", default=[2, 5, 10], help="finite ones; none leaves them out")
     parser.add_argument("--mach", type=float, default=2.0)
     parser.add_argument("--alpha", type=float, default=0.0)
     parser.add_argument("--tolerance", type=float, default=1.0, metavar="PERCENT")
@@ -137,8 +184,10 @@ def main() -> int:
     check = Check(arguments)
     half, full = check.mesh("half"), check.mesh("full")
     worst = differences(check, half, arguments.degrees)
+    if arguments.angles:
+        finite(check, half, arguments.angles)
     half_and_full(check, half, full)
-    costs(check, half)
+    costs(check, half, full)
     return 0 if worst <= arguments.tolerance else 1
 
 

@@ -390,6 +390,9 @@ class _Reader:
         if x <= 0.0 or x + STANDING * root > body.length * (1.0 + 1e-9):
             self.complain(place, key, f"the root goes from {x:g} to {x + root:g}, and must stand on the body, 0 to {body.length:g}")
             return None
+        if values["hinge"] is not None and not 0.0 <= values["hinge"] <= root:
+            self.complain(place, "hinge", f"is a distance from the root's leading edge: at least 0 and at most the root chord, {root:g}")
+            return None
         return planform, section, x
 
     def fin_set(self, place: Place, values: dict[str, Any], body: Body) -> list[Panel]:

@@ -96,11 +96,26 @@ class CaseReader {
       return complain(place, {"", 0, "is not of the form key=value", "for example --set freestream.mach=2"});
     const std::string path = assignment.substr(0, equals);
     const auto* key = find_case_key(path);
+    if (!key && is_table(path)) return add_table_override(path, assignment.substr(equals + 1), place);
     if (!key) return complain(place, unknown_key(path, 0));
     auto value = override_value(assignment.substr(equals + 1), key->is_text);
     if (!value) return complain(place, {"", 0, "the value is not valid text", ""});
     overrides_.push_back(std::move(*value));
     entries_[path] = {key, overrides_.back().get("value"), place, 0};
+  }
+
+  /// All of a table whose keys are names, in place of what was there.
+  void add_table_override(const std::string& path, const std::string& text, const std::string& place) {
+    const auto* family = find_case_key(path + ".name");
+    auto value = override_value(text, false);
+    const auto* table = value ? (*value)["value"].as_table() : nullptr;
+    if (!family || !family->is_family() || !table)
+      return complain(place,
+                      {"", 0, path + " is a table", "set its keys one by one: --set " + path + ".KEY=..."});
+    overrides_.push_back(std::move(*value));
+    std::erase_if(entries_, [&](const auto& entry) { return entry.second.key == family; });
+    for (const auto& [name, node] : *overrides_.back()["value"].as_table())
+      entries_[path + "." + std::string(name.str())] = {family, &node, place, 0};
   }
 
   CaseDraft finish() {
@@ -211,6 +226,7 @@ class CaseReader {
                        fmt::format("{} has the name of {} already", key,
                                    c.boundary.contains(name) ? "a patch" : "a column"),
                        "give the set another name");
+      if (name.empty()) complain_about({key}, "components: a set has no name", "give it one");
       if (patches.empty()) complain_about({key}, key + " has no walls", "name some, or leave it out");
       for (const auto& patch : patches)
         if (const auto kind = c.boundary.find(patch);
@@ -252,6 +268,9 @@ class CaseReader {
                          fmt::format("{} names {}, which is no wall of the case", about, toml_string(patch)),
                          "name patches that [boundary] makes walls, stings or jets");
       }
+      if (std::set<std::string>(control.patches.begin(), control.patches.end()).size() !=
+          control.patches.size())
+        complain_about({"controls"}, about + " names a wall twice", "name each once");
       if (norm(control.hinge_axis) == 0)
         complain_about({"controls"}, about + ": the axis of the hinge has no direction",
                        "give hinge.axis, for a panel outboard along its hinge line");

@@ -14,8 +14,11 @@ std::vector<Variable> rates_of(std::vector<Variable> controls, const Case& setti
   return controls;
 }
 
-const ControlSettings& settings_of(const FlowCase& flow, Variable control) {
-  return *std::ranges::find(flow.settings().controls, name(control), &ControlSettings::name);
+/// By its place among the controls.
+std::size_t number_of(Variable control, const Case& settings) {
+  const auto& controls = settings.controls;
+  return static_cast<std::size_t>(std::ranges::find(controls, name(control), &ControlSettings::name) -
+                                  controls.begin());
 }
 
 }  // namespace
@@ -53,17 +56,9 @@ Terms terms_of(Variable variable, const Case& settings) {
   return out;
 }
 
-Deflection deflection_of(const FlowCase& flow, Variable control) {
-  const auto& found = settings_of(flow, control);
-  return deflection(flow.discretization(), turning_patches(found, flow.settings().mesh), hinge_of(found),
-                    flow.communicator());
-}
-
 namespace {
 
-HeldFlowChange change_by_turn(FlowCase& flow, Variable control) {
-  const bool is_rate = is_control_rate(control);
-  const auto& turning = settings_of(flow, is_rate ? control_of_rate(control) : control);
+HeldFlowChange change_by_turn(FlowCase& flow, const ControlSettings& turning, bool is_rate) {
   const auto patches = turning_patches(turning, flow.settings().mesh);
   return change_by_turn(flow.iteration(), flow.conditions(), [&](Real by) {
     return turned_further(flow.discretization(), patches, hinge_of(turning), is_rate ? 0 : by,
@@ -74,12 +69,14 @@ HeldFlowChange change_by_turn(FlowCase& flow, Variable control) {
 }  // namespace
 
 HeldFlowChange change_by_control(FlowCase& flow, Variable control, bool limiter_held) {
-  if (flow.settings().space.deflection == DeflectionKind::transpiration) return change_by_turn(flow, control);
-  if (is_control_rate(control))
-    return change_by_velocity(flow.iteration(), flow.conditions(),
-                              deflection_of(flow, control_of_rate(control)).displacement);
-  return change_by_displacement(flow.iteration(), flow.conditions(),
-                                deflection_of(flow, control).displacement, limiter_held);
+  const Case& settings = flow.settings();
+  const bool is_rate = is_control_rate(control);
+  const std::size_t number = number_of(is_rate ? control_of_rate(control) : control, settings);
+  if (settings.space.deflection == DeflectionKind::transpiration)
+    return change_by_turn(flow, settings.controls[number], is_rate);
+  const auto& displacement = flow.control_deflections()[number].displacement;
+  return is_rate ? change_by_velocity(flow.iteration(), flow.conditions(), displacement)
+                 : change_by_displacement(flow.iteration(), flow.conditions(), displacement, limiter_held);
 }
 
 }  // namespace alphadot

@@ -20,8 +20,6 @@ std::vector<Variable> control_sets_of(const Case& settings);
 using Terms = std::vector<std::pair<Variable, Real>>;
 Terms terms_of(Variable variable, const Case& settings);
 
-/// Of one control. Collective.
-Deflection deflection_of(const FlowCase& flow, Variable control);
 /// Rates of all controls, when the case asks for them.
 std::vector<Variable> control_rates_of(const Case& settings);
 std::vector<Variable> control_set_rates_of(const Case& settings);  ///< and of all sets

@@ -67,16 +67,25 @@ std::optional<std::string> shortfall_of(const SteadyResult& result, const FlowCa
   return text + ", worst: " + named(flow.iteration().worst_cells(named_cells));
 }
 
+std::vector<Deflection> deflections_of_controls(const FlowCase& flow) {
+  std::vector<Deflection> out;
+  for (const auto& control : flow.settings().controls)
+    out.push_back(deflection(flow.discretization(), turning_patches(control, flow.settings().mesh),
+                             hinge_of(control), flow.communicator()));
+  return out;
+}
+
 /// Walls in a plane of symmetry cannot turn; where they meet others that stay they are held.
-void check_control(const ControlSettings& control, const FlowCase& flow) {
+void check_control(const ControlSettings& control, const Deflection& deflection, const FlowCase& flow) {
   constexpr Real negligible = 1e-6, much = 0.3;
-  const auto [displacement, at_walls, at_symmetry] =
-      deflection(flow.discretization(), turning_patches(control, flow.settings().mesh), hinge_of(control),
-                 flow.communicator());
-  if (at_symmetry > negligible)
+  const Real at_walls = deflection.lost_at_walls;
+  if (deflection.lost_at_symmetry > negligible)
     throw InputError(flow.settings().file, 0,
                      fmt::format("control {} turns walls out of the plane of symmetry", control.name),
                      "use a full model, or a hinge across that plane");
+  if (deflection.hinge_distance > 1)
+    spdlog::warn("control {}: the hinge is {:.2g} times as far from its walls as they are large",
+                 control.name, deflection.hinge_distance);
   if (at_walls > much && flow.settings().space.deflection == DeflectionKind::mesh)
     spdlog::warn(
         "control {}: where its walls meet others that stay they lose up to {:.0f} % of their displacement; "
@@ -134,7 +143,9 @@ PanelFrame frame_of(const ControlSettings& control) {
 }
 
 void FlowCase::deflect_controls() {
-  for (const auto& control : settings().controls) check_control(control, *this);
+  control_deflections_ = deflections_of_controls(*this);
+  for (std::size_t i = 0; i < settings().controls.size(); ++i)
+    check_control(settings().controls[i], control_deflections_[i], *this);
   for (const auto& [name, degrees] : settings().deflections) {
     const auto& control = *std::ranges::find(settings().controls, name, &ControlSettings::name);
     const auto patches = turning_patches(control, settings().mesh);
@@ -147,6 +158,8 @@ void FlowCase::deflect_controls() {
                        fmt::format("the mesh folds while {} is deflected by {:g} degrees", name, degrees),
                        "deflect it less, or mesh it deflected");
   }
+  if (!settings().deflections.empty() && settings().space.deflection == DeflectionKind::mesh)
+    control_deflections_ = deflections_of_controls(*this);
 }
 
 Hinge hinge_of(const ControlSettings& control) {

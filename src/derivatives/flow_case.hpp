@@ -46,6 +46,8 @@ class FlowCase {
   ImplicitIteration& iteration() { return iteration_; }
   const ImplicitIteration& iteration() const { return iteration_; }
   const Motion& motion() const { return motion_; }
+  /// How the mesh, as it is in the steady flow, follows each control of the case, in their order.
+  const std::vector<Deflection>& control_deflections() const { return control_deflections_; }
 
   /// Of the steady flow.
   Conditions<Real> conditions() const;
@@ -88,6 +90,7 @@ class FlowCase {
   Setup setup_;
   const Communicator& comm_;
   Discretization discretization_;
+  std::vector<Deflection> control_deflections_;
   Motion motion_;
   ImplicitIteration iteration_;
   MarchState march_;

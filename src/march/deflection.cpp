@@ -9,6 +9,7 @@
 
 #include "core/symmetric3.hpp"
 #include "march/blend.hpp"
+#include "partition/point_sums.hpp"
 #include "space/flow_field.hpp"
 
 namespace alphadot {
@@ -16,32 +17,6 @@ namespace alphadot {
 namespace {
 
 constexpr Real infinity = std::numeric_limits<Real>::infinity();
-
-/// Values at the corners of every cell, summed over the cells around each point.
-template <class V>
-class CornerField {
- public:
-  CornerField(const Subdomain& domain, const Communicator& comm) : domain_(domain), cells_(domain, comm) {}
-
-  using Corners = std::array<V, 4>;
-  V& at(Index cell, Index point) { return cells_[cell][corner(cell, point)]; }
-  /// What owned cells say reaches the ranks around.
-  void exchange() { cells_.exchange(); }
-  /// Calls visit(value) for the values of all cells around a point of an owned cell; after exchange().
-  template <class Visitor>
-  void around(Index point, const Visitor& visit) {
-    for (const Index cell : domain_.point_cells[point]) visit(at(cell, point));
-  }
-
- private:
-  std::size_t corner(Index cell, Index point) const {
-    const auto& corners = domain_.cell_points[static_cast<std::size_t>(cell)];
-    return static_cast<std::size_t>(std::ranges::find(corners, point) - corners.begin());
-  }
-
-  const Subdomain& domain_;
-  CellField<Corners> cells_;
-};
 
 /// The box around walls that turn: along the hinge, along their mean normal across it, and across both.
 class HingedBox {
@@ -80,6 +55,11 @@ class HingedBox {
   Real diagonal() const {
     return std::hypot(upper_[0] - lower_[0], upper_[1] - lower_[1], upper_[2] - lower_[2]);
   }
+  /// Of the hinge line; 0 where it meets the box.
+  Real hinge_distance() const {
+    const auto from = [&](std::size_t i) { return std::max({lower_[i], -upper_[i], Real{0}}); };
+    return std::hypot(from(1), from(2));
+  }
   /// 0 inside.
   Real distance(const Vec3& x) const {
     std::array<Real, 3> d;
@@ -103,12 +83,6 @@ class HingedBox {
   std::array<Real, 3> lower_, upper_;
 };
 
-/// What the boundary says of a point.
-struct Marks {
-  Symmetric3 fixed{}, symmetry{};  ///< sums of area times the square of the normal over the faces that stay
-  Real turning = 0;                ///< number of faces that turn
-};
-
 void add(Symmetric3& sum, const Symmetric3& b) {
   sum.xx += b.xx;
   sum.xy += b.xy;
@@ -120,6 +94,41 @@ void add(Symmetric3& sum, const Symmetric3& b) {
 
 Real trace(const Symmetric3& a) {
   return a.xx + a.yy + a.zz;
+}
+
+/// What the boundary says of a point.
+struct Marks {
+  Symmetric3 fixed{}, symmetry{};  ///< sums of area times the square of the normal over the faces that stay
+  Real turning = 0;                ///< number of faces that turn
+
+  Marks& operator+=(const Marks& b) {
+    add(fixed, b.fixed);
+    add(symmetry, b.symmetry);
+    turning += b.turning;
+    return *this;
+  }
+};
+
+/// [owned_points]
+std::vector<Marks> marks_of(const Discretization& discretization, std::span<const std::uint8_t> turns,
+                            const Communicator& comm) {
+  const Subdomain& domain = discretization.domain();
+  std::vector<Marks> marks(static_cast<std::size_t>(domain.owned_points));
+  for (std::size_t i = 0; i < domain.boundary_faces.size(); ++i) {
+    const auto& face = domain.boundary_faces[i];
+    const Vec3 area = domain.boundary_normal[i], root = 1 / std::sqrt(norm(area)) * area;
+    for (const Index point : face.points) {
+      Marks& here = marks[static_cast<std::size_t>(point)];
+      if (turns[static_cast<std::size_t>(face.patch)]) {
+        here.turning += 1;
+        continue;
+      }
+      add_square(here.fixed, root);
+      if (discretization.kind_of(face) == BoundaryKind::symmetry) add_square(here.symmetry, root);
+    }
+  }
+  const std::span<const GlobalIndex> ids(domain.point_ids);
+  return sum_at_points<Marks>(ids.first(marks.size()), marks, comm);
 }
 
 /// The part of u across a surface whose faces around a point have these squares of normals: across the one
@@ -172,37 +181,18 @@ Deflection deflection(const Discretization& discretization, std::span<const std:
   for (const auto& patch : domain.patch_names)
     turns.push_back(std::ranges::find(patches, patch) != patches.end());
 
-  CornerField<Marks> marks(domain, comm);
-  for (std::size_t i = 0; i < domain.boundary_faces.size(); ++i) {
-    const auto& face = domain.boundary_faces[i];
-    const Vec3 area = domain.boundary_normal[i], root = 1 / std::sqrt(norm(area)) * area;
-    for (const Index point : face.points) {
-      Marks& here = marks.at(face.cell, point);
-      if (turns[static_cast<std::size_t>(face.patch)]) {
-        here.turning += 1;
-        continue;
-      }
-      add_square(here.fixed, root);
-      if (discretization.kind_of(face) == BoundaryKind::symmetry) add_square(here.symmetry, root);
-    }
-  }
-  marks.exchange();
-
+  const auto marks = marks_of(discretization, turns, comm);
   const HingedBox box(domain, turns, hinge, comm);
   const Real reach = 0.5 * box.diagonal();
   const auto owned = static_cast<std::size_t>(domain.owned_points);
   std::vector<Vec3> kept_back(owned), turned(owned);
   std::vector<std::uint8_t> is_free(owned);
   Deflection out;
+  out.hinge_distance = box.hinge_distance() / box.diagonal();
   Real largest = 0;
   for (Index point = 0; point < domain.owned_points; ++point) {
     const auto at = static_cast<std::size_t>(point);
-    Marks here;
-    marks.around(point, [&](const Marks& of_cell) {
-      add(here.fixed, of_cell.fixed);
-      add(here.symmetry, of_cell.symmetry);
-      here.turning += of_cell.turning;
-    });
+    const Marks& here = marks[at];
     const Vec3 x = domain.points[at];
     const bool is_turning = here.turning > 0;
     const Real share = is_turning ? 1 : blend(box.distance(x) / reach);
@@ -219,16 +209,20 @@ Deflection deflection(const Discretization& discretization, std::span<const std:
   if (most[0] > 0) out.lost_at_walls = most[1] / most[0], out.lost_at_symmetry = most[2] / most[0];
 
   smooth(domain, comm, is_free, kept_back);
-  CornerField<Vec3> corners(domain, comm);
-  for (Index cell = 0; cell < domain.owned_cells; ++cell)
-    for (const Index point : domain.cell_points[static_cast<std::size_t>(cell)])
-      corners.at(cell, point) =
-          turned[static_cast<std::size_t>(point)] - kept_back[static_cast<std::size_t>(point)];
-  corners.exchange();
   out.displacement.resize(domain.points.size());
-  for (Index cell = 0; cell < domain.total_cells; ++cell)
-    for (const Index point : domain.cell_points[static_cast<std::size_t>(cell)])
-      out.displacement[static_cast<std::size_t>(point)] = corners.at(cell, point);
+  for (std::size_t point = 0; point < owned; ++point)
+    out.displacement[point] = turned[point] - kept_back[point];
+  if (comm.size() == 1) return out;
+  CellField<std::array<Vec3, 4>> corners(domain, comm);  // for points of ghosts alone
+  for (Index cell = 0; cell < domain.owned_cells; ++cell)
+    for (std::size_t i = 0; i < 4; ++i)
+      corners[cell][i] =
+          out.displacement[static_cast<std::size_t>(domain.cell_points[static_cast<std::size_t>(cell)][i])];
+  corners.exchange();
+  for (Index cell = domain.owned_cells; cell < domain.total_cells; ++cell)
+    for (std::size_t i = 0; i < 4; ++i)
+      out.displacement[static_cast<std::size_t>(domain.cell_points[static_cast<std::size_t>(cell)][i])] =
+          corners[cell][i];
   return out;
 }
 

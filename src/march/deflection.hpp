@@ -21,6 +21,7 @@ struct Deflection {
   /// The largest share, of the largest displacement of the walls that turn, of what these lose where they
   /// meet others: at walls that stay, and at planes of symmetry.
   Real lost_at_walls = 0, lost_at_symmetry = 0;
+  Real hinge_distance = 0;  ///< of the hinge line from the box around the walls, over that box's diagonal
 };
 
 /// The walls of some patches turn as a rigid whole. Around them the mesh turns with them inside the box
