@@ -30,8 +30,8 @@ HeldFlowChange change_by_displacement(ImplicitIteration& iteration, const Condit
 HeldFlowChange change_by_velocity(ImplicitIteration& iteration, const Conditions<Real>& conditions,
                                   std::span<const Vec3> velocity);
 
-/// Of R(W) and the loads, with what a change of the walls' turn on a mesh that stays is to them: `walls` by so
-/// much of the change, rad or rad per unit time. Central differences with a step of 1e-5. Collective.
+/// Of R(W) and the loads, with what a change of the walls' turn on a mesh that stays is to them: `walls` by
+/// so much of the change, rad or rad per unit time. Central differences with a step of 1e-5. Collective.
 HeldFlowChange change_by_turn(ImplicitIteration& iteration, const Conditions<Real>& conditions,
                               const std::function<std::vector<TurnedWall>(Real)>& walls);
 

@@ -111,19 +111,21 @@ void Linearisation::differentiate_turned(const Reconstruction<Real>& reconstruct
     const auto [area, normal, center] = boundary_geometry(domain, i);
     const auto turned = turned_geometry(domain, wall);
     const auto here = inner_state(domain, flow_, reconstruction, i, order).inside;
-    const auto [there, scaling] = inner_state(domain, flow_, reconstruction, domain.boundary_faces[i].cell,
-                                              turned.center, order);
+    const auto [there, scaling] =
+        inner_state(domain, flow_, reconstruction, domain.boundary_faces[i].cell, turned.center, order);
     Number speed_here = conditions_.boundary_speed(i, center, normal);
     Number speed_there = turned_speed(wall, turned, conditions_);
     TurnedFace by_there{};
     {
       Number changing = speed_there;
       changing.d[speed_variable] = 1;
-      const auto [pressure, flux] =
-          turned_wall_flux(constant<6>(here), normal, speed_here, independent<6>(there), turned.normal,
-                           changing, gamma);
-      by_there = {by_state(area * flux), by_variable(area * flux, speed_variable), {},
-                  pressure.d[speed_variable], scaling};
+      const auto [pressure, flux] = turned_wall_flux(constant<6>(here), normal, speed_here,
+                                                     independent<6>(there), turned.normal, changing, gamma);
+      by_there = {by_state(area * flux),
+                  by_variable(area * flux, speed_variable),
+                  {},
+                  pressure.d[speed_variable],
+                  scaling};
       for (int k = 0; k < 5; ++k) by_there.pressure[k] = pressure.d[k];
     }
     turned_faces_.push_back(by_there);

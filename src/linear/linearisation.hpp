@@ -32,8 +32,8 @@ class Linearisation {
     Real scaling;
   };
 
-  /// Of a face whose wall has turned, by the state that its cell carries to where the wall is and the speed of
-  /// the wall there; its boundary face has the rest.
+  /// Of a face whose wall has turned, by the state that its cell carries to where the wall is and the speed
+  /// of the wall there; its boundary face has the rest.
   struct TurnedFace {
     Matrix there;
     Five<Real> speed;

@@ -72,8 +72,8 @@ void Discretization::set_dissipative(std::vector<std::uint8_t> cells) {
 }
 
 std::size_t Discretization::bytes() const {
-  return turned_walls_.size() * sizeof(TurnedWall) + dissipative_.size() + point_moments_.size() * sizeof(PointMoments) +
-         inverse_fit_.size() * sizeof(Symmetric3);
+  return turned_walls_.size() * sizeof(TurnedWall) + dissipative_.size() +
+         point_moments_.size() * sizeof(PointMoments) + inverse_fit_.size() * sizeof(Symmetric3);
 }
 
 }  // namespace alphadot

@@ -116,6 +116,22 @@ class Controls(unittest.TestCase):
                     self.assertAlmostEqual(got, expected, delta=1e-4 * max(abs(expected), 0.1), msg=f"{name} of {panel} by {control}")
         self.assertGreater(abs(found["CN_flap"]), 0.5)
 
+    def test_turn_by_transpiration_too(self) -> None:
+        """Flat walls beside the flap and under uniform flow: what the deforming mesh says within what its cells leave, per cent of each."""
+        passing = ("--set", "space.deflection=transpiration")
+        solved = self.done("derivatives", "passing", *DEEP, *passing)["derivatives"]
+        flows = [self.done("run", f"passing_{sign}", *passing, "--set", f"deflections.flap={0.01 * sign}")["forces"] for sign in (-1, 1)]
+        for name in ("CN", "Cm"):
+            value = solved[f"{name}_flap"]["value"]
+            expected = (flows[1][name] - flows[0][name]) / math.radians(0.02)
+            self.assertAlmostEqual(value, expected, delta=1e-4 * abs(expected), msg=name)
+            self.assertAlmostEqual(value, self.values()[f"{name}_flap"], delta=0.03 * abs(value), msg=name)
+            rate = solved[f"{name}_flapdot"]["value"]
+            self.assertAlmostEqual(rate, self.values()[f"{name}_flapdot"], delta=0.1 * abs(rate), msg=name)
+        outcome = run(self.folder, "adjoint", "case.toml", "--out", "none", "--of", "CN", *passing, "--set", "deflections.flap=1")
+        self.assertEqual(outcome.codes, [1] * RANKS)
+        self.assertIn("knows no walls that are deflected by transpiration", outcome.errors[0])
+
     def test_sets_are_sums(self) -> None:
         found = self.values()
         for name in ("CA", "CN", "Cm"):
@@ -253,11 +269,18 @@ class Controls(unittest.TestCase):
             ("control_sets.both={flap='x'}", '"flap" must be a number'),
             (control.replace("name='flap'", "name='flapdot'"), '"flapdot" cannot name a control'),
             ("deflections.flop=1", "deflections.flop names no control"),
+            ("control_sets={both={flop=1}}", 'names "flop", which is no control'),
+            ("control_sets=3", "control_sets is a table; set its keys"),
+            ("freestream={mach=2}", "freestream is a table; set its keys"),
+            ("components={''=['flap']}", "a set has no name"),
+            (control.replace("['flap']", "['flap','flap']"), "names a wall twice"),
             ("deflections.flap=90", "must be a number from -45 to 45"),
         ):
             outcome = run(self.folder, "check", "case.toml", "--set", setting)
             self.assertEqual(outcome.codes, [1] * RANKS, setting)
             self.assertTrue(any(part in line for line in outcome.errors), (setting, outcome.err))
+        only_flap = run(self.folder, "check", "case.toml", "--set", control, "--set", "control_sets={}")
+        self.assertEqual(only_flap.codes, [0] * RANKS, only_flap.err)
         text = CASE.replace("axis = [0, 2, 0]", "axis = [0, 2]")
         (self.folder / "wrong.toml").write_text(text)
         line = 1 + text[: text.index("axis = [0, 2]")].count("\n")

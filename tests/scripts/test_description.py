@@ -131,6 +131,8 @@ class Refusals(Described):
         self.refused(BODY + FINS + "x = 9\n", 14, "either 'x'")
         self.refused(BODY + FINS + "deflection = [1, 2]\n", 14, "2 values for 4 panels")
         self.refused(BODY + FINS + "bevel = 0.1\n", 14, "no bevels")
+        self.refused(BODY + FINS + "hinge = 1.2\n", 14, "at most the root chord, 1")
+        self.refused(BODY + FINS + "hinge = -0.1\n", 14, "at least 0")
         self.refused(BODY + '[flight]\nmach = [2, 1.5]\n', 9, "lowest Mach number comes first")
         self.refused(BODY + "[[body]]\nshape = \"cylinder\"\n", 8, "needs the key 'length'")
         self.refused(BODY.replace("[[body]]", "[body]", 1).split("[[body]]")[0], 1, "[[body]]", "two brackets")
