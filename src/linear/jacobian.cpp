@@ -7,6 +7,7 @@
 #include "euler/independent.hpp"
 #include "euler/state_change.hpp"
 #include "space/face_geometry.hpp"
+#include "space/turned_walls.hpp"
 #include "space/wave_speed.hpp"
 
 namespace alphadot {
@@ -80,6 +81,25 @@ void boundary_terms(const Discretization& discretization, const FlowField<Real>&
   }
 }
 
+/// What walls that have turned change about that.
+void turned_terms(const Discretization& discretization, const FlowField<Real>& flow,
+                  const Conditions<Real>& conditions, std::vector<Matrix>& diagonal) {
+  const Subdomain& domain = discretization.domain();
+  const Real gamma = discretization.gamma();
+  for (const TurnedWall& wall : discretization.turned_walls()) {
+    const auto i = static_cast<std::size_t>(wall.face);
+    const Index cell = domain.boundary_faces[i].cell;
+    const auto [area, normal, center] = boundary_geometry(domain, i);
+    const auto turned = turned_geometry(domain, wall);
+    const Dual<5> speed = conditions.boundary_speed(i, center, normal);
+    const Dual<5> speed_there = turned_speed(wall, turned, conditions);
+    const auto inside = independent<5>(flow[cell]);
+    const auto flux = turned_wall_flux(inside, normal, speed, inside, turned.normal, speed_there, gamma).flux;
+    add_derivative(diagonal[cell],
+                   flux - wall_flux(wall_pressure(inside, normal, speed, gamma), normal, speed), 0, area);
+  }
+}
+
 }  // namespace
 
 void assemble_jacobian(const Discretization& discretization, const FlowField<Real>& flow,
@@ -90,6 +110,7 @@ void assemble_jacobian(const Discretization& discretization, const FlowField<Rea
   const auto wave_speed = wave_speeds(discretization, flow, conditions);
   face_terms(discretization, flow, conditions, matrix, diagonal);
   boundary_terms(discretization, flow, conditions, diagonal);
+  turned_terms(discretization, flow, conditions, diagonal);
   for (Index cell = 0; cell < domain.owned_cells; ++cell) {
     const Real scale = wave_speed[cell] / time.cfl + domain.volume[cell] * time.inverse_step;
     add_time_term(diagonal[cell], flow[cell], scale, discretization.gamma());
