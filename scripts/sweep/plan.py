@@ -256,6 +256,15 @@ def without_images(runs: list[Run], planes: set[str]) -> list[Run]:
     return [run for run in runs if not is_image(run)]
 
 
+def by_path(settings: dict) -> dict:
+    """Keys of the case by their whole names: set.output.flow = false is set."output.flow" = false."""
+    out: dict = {}
+    for name, value in settings.items():
+        inner = isinstance(value, dict) and "." not in name
+        out |= {f"{name}.{key}": item for key, item in value.items()} if inner and value else {name: value}
+    return out
+
+
 def expand(path: Path, folder: Path, defaults: dict, block: dict, controls: dict, cycles: float | None) -> list[Run]:
     """The runs of one block: every combination of its lists, in the order mesh, controls, method, alpha, beta, Mach."""
     refuse_unknown(path, block, BLOCK_KEYS)
@@ -268,7 +277,7 @@ def expand(path: Path, folder: Path, defaults: dict, block: dict, controls: dict
     given = merged.keys() | (rows[0].keys() if rows else set())
     if given & set(BODY_ANGLES) and given & set(TOTAL_ANGLES):
         raise SweepError(f"{path}: give either alpha and beta, or alpha_t and phi")
-    settings = defaults.get("set", {}) | block.get("set", {})
+    settings = by_path(defaults.get("set", {})) | by_path(block.get("set", {}))
     if not merged.get("case"):
         raise SweepError(f'{path}: names no case; add case = "FILE.toml"')
     case, ranks = (path.parent / merged["case"]).resolve(), merged.get("ranks", 2)

@@ -16,7 +16,7 @@ from sweep.meshes import make_mesh, mesh_settings
 from sweep.plan import Run, SweepError
 from sweep.state import END, LOCK, LOG, PROGRESS, RECORD, RESULT, Phase, State
 from sweep.state import checkpoints, progress, read_json, reason, remove_checkpoints, state_at_rest, write_json
-from sweep.text import duration
+from sweep.text import duration, toml_value
 
 ROOT = Path(__file__).resolve().parents[2]
 ENDLESS = 1e9  # seconds
@@ -35,11 +35,7 @@ def find_program(given: str | None) -> Path:
 
 def toml_text(value: object) -> str:
     """A value as --set takes it."""
-    if isinstance(value, bool):
-        return str(value).lower()
-    if isinstance(value, list):
-        return "[" + ", ".join(toml_text(item) for item in value) + "]"
-    return str(value)
+    return value if isinstance(value, str) else toml_value(value)
 
 
 class Runner:

@@ -31,11 +31,13 @@ class Plan(Workspace):
         self.assertEqual(names[-1], "plunge_fine_m2_a1.5")
 
     def test_command_line(self) -> None:
-        self.write('[[runs]]\nmethod = "plunge"\nmach = 2.5\nmesh = "coarse"\nranks = 3\nset."unsteady.cycles" = 2.5\n')
+        self.write('[[runs]]\nmethod = "plunge"\nmach = 2.5\nmesh = "coarse"\nranks = 3\nset."unsteady.cycles" = 2.5\n'
+                   'set.space.order = 1\nset.components = {tail = ["a", "b"]}\nset.control_sets = {}\n')
         run = read_sweep(self.file).runs[0]
         command = " ".join(Runner(self.folder / "alphadot").command(run, run.case))
         self.assertIn(f"-n 3 {self.folder}/alphadot run {self.folder}/good.toml --out {self.folder}/runs/{run.name}", command)
-        for setting in ("freestream.mach=2.5", "freestream.alpha=1.5", "motion.kind=plunge", "unsteady.cycles=2.5"):
+        for setting in ("freestream.mach=2.5", "freestream.alpha=1.5", "motion.kind=plunge", "unsteady.cycles=2.5", "space.order=1",
+                        'components.tail=["a", "b"]', "control_sets={"):  # fmt: skip
             self.assertIn(f"--set {setting}", command)
         self.assertEqual(mesh_settings(run), {"mesh.file": f"{self.folder}/coarse.msh"})
 
