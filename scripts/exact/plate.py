@@ -3,13 +3,14 @@
 
 The potential above the plate is -(1/beta) times the integral over the downwash ahead, with the kernel exp(-i w s) J0(w s / M),
 w = omega c M^2 / (V beta^2) (I. E. Garrick & S. I. Rubinow, NACA Report 846, 1946); the pressure follows from it by Bernoulli's
-equation. Per radian, chord 1, reference length the chord: CN and Cm (nose up) for alpha and for q = theta_dot c / 2V, each about the
-axis x0.
+equation. Per radian, chord 1, reference length the chord: CN and Cm (nose up) for alpha, for q = theta_dot c / 2V and for a gust w / V =
+exp(i omega (t - (x - x0) / V)), each about the axis x0.
 """
 
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -37,14 +38,15 @@ def oscillating_plate(mach: float, k: float, x0: float) -> dict[str, Response]:
     nodes, weights = np.polynomial.legendre.leggauss(60)
     nodes, weights = 0.5 * (nodes + 1), 0.5 * weights  # on 0 to 1
 
-    def potential(x: np.ndarray, angle: np.polynomial.Polynomial) -> np.ndarray:
+    def potential(x: np.ndarray, angle: Callable[[np.ndarray], np.ndarray]) -> np.ndarray:
         """Above the plate, for a local incidence `angle(x)`."""
         s = x[:, None] * nodes
         kernel = np.exp(-1j * w * s) * bessel_j0(w * s / mach)
         return x * ((angle(x[:, None] - s) * kernel) @ weights) / beta
 
     out = {}
-    for name, angle in (("alpha", np.polynomial.Polynomial([1.0])), ("q", np.polynomial.Polynomial([-2 * x0, 2.0]))):
+    incidences = {"alpha": np.ones_like, "q": lambda x: 2 * (x - x0), "gust": lambda x: np.exp(-1j * omega * (x - x0))}
+    for name, angle in incidences.items():
         phi, at_end = potential(nodes, angle), potential(np.array([1.0]), angle)[0]
         # Cp below less above: 4 (i omega phi + dphi/dx); the latter by parts.
         force = 4 * (1j * omega * (phi @ weights) + at_end)
@@ -78,7 +80,8 @@ def sharp_gust(mach: float, way: float) -> tuple[float, float]:
 
 
 if __name__ == "__main__":
-    print("# Oscillating flat plate, exact linear theory (Garrick & Rubinow 1946); chord 1, per rad; written by scripts/exact/plate.py")
+    print("# Flat plate that oscillates or meets a sinusoidal gust, exact linear theory (Garrick & Rubinow 1946); chord 1, per rad; "
+          "written by scripts/exact/plate.py")
     print("Mach,k,x0,variable,CN_in_phase,CN_out_of_phase,Cm_in_phase,Cm_out_of_phase")
     for mach in (1.58, 2.0, 2.5):
         for k in (0.01, 0.1, 0.5, 1.0):

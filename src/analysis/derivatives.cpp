@@ -14,9 +14,10 @@ namespace alphadot {
 namespace {
 
 /// In the order of the enumeration.
-constexpr std::array<std::string_view, 11> variable_names = {
-    "alpha",           "beta",           "p", "q", "r", "alphadot", "betadot", "alphaddot", "betaddot",
-    "q_plus_alphadot", "r_minus_betadot"};
+constexpr std::array<std::string_view, 13> variable_names = {
+    "alpha",           "beta",    "p",         "q",        "r",
+    "alphadot",        "betadot", "alphaddot", "betaddot", "q_plus_alphadot",
+    "r_minus_betadot", "gust",    "side_gust"};
 
 /// Of the controls that were named so far; names stay where they are.
 std::deque<std::string>& control_names() {

@@ -15,8 +15,10 @@
 namespace alphadot {
 
 /// What a coefficient is differentiated by: angles in rad, rates times l/2V, second rates (alphaddot) times
-/// (l/2V)^2. The last two are what forced pitch and forced yaw about a fixed axis yield: X_q + X_alphadot and
-/// X_r - X_betadot (r = -betadot there). Beyond these: see control_variable().
+/// (l/2V)^2. q_plus_alphadot and r_minus_betadot are what forced pitch and forced yaw about a fixed axis
+/// yield: X_q + X_alphadot and X_r - X_betadot (r = -betadot there). The gusts are waves of air that the
+/// stream carries, upwards or along y, over V, with their phase at the moment centre: only at a frequency.
+/// Beyond these: see control_variable().
 enum class Variable {
   alpha,
   beta,
@@ -28,7 +30,9 @@ enum class Variable {
   alphaddot,
   betaddot,
   q_plus_alphadot,
-  r_minus_betadot
+  r_minus_betadot,
+  gust,
+  side_gust
 };
 
 /// The deflection, in rad, of the control of this name: the same variable for the same name in all of the

@@ -42,7 +42,7 @@ std::string frequency_csv(std::span<const FrequencyRow> rows, const TableHead& h
       csv_comment(
           head_text(head) +
           "load = (in_phase + i k out_of_phase) exp(i k t*) of a variable cos(k t*), t* = 2 V t / length; "
-          "phase of the load ahead of the variable\n") +
+          "phase of the load ahead of the variable; of a gust at the moment centre, per w / V\n") +
       "k,part,coefficient,variable,in_phase,in_phase_uncertainty,out_of_phase,out_of_phase_uncertainty,"
       "modulus,"
       "phase_deg,converged\n";

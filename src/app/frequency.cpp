@@ -14,7 +14,7 @@
 
 namespace alphadot {
 
-RunStatus frequency_verb(const CaseArguments& arguments, std::vector<Real> frequencies,
+RunStatus frequency_verb(const CaseArguments& arguments, std::vector<Real> frequencies, bool with_gusts,
                          const Communicator& comm) {
   std::ranges::sort(frequencies);
   frequencies.erase(std::unique(frequencies.begin(), frequencies.end()), frequencies.end());
@@ -30,10 +30,11 @@ RunStatus frequency_verb(const CaseArguments& arguments, std::vector<Real> frequ
     run.progress().begin_phase("linear solves");
     Oscillations oscillations = kept_oscillations(run);
     const LinearSolves solves(run, [&] { keep(run, oscillations); });
-    const bool is_done = solve_oscillations(run.flow(), frequencies, oscillations, solves.observer());
+    const bool is_done =
+        solve_oscillations(run.flow(), frequencies, with_gusts, oscillations, solves.observer());
     if (is_done) {
       std::vector<std::string> shortfalls;
-      rows = frequency_rows(run.flow(), frequencies, oscillations, shortfalls);
+      rows = frequency_rows(run.flow(), frequencies, with_gusts, oscillations, shortfalls);
       for (auto& shortfall : shortfalls) record.fall_short(std::move(shortfall));
     }
     linear_cpu = timer.cpu();

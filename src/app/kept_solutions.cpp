@@ -90,7 +90,8 @@ Adjoint adjoint_of(std::string name, const std::vector<Real>& numbers, std::size
   return out;
 }
 
-constexpr Variable oscillating[] = {Variable::alpha, Variable::beta, Variable::p, Variable::q, Variable::r};
+constexpr Variable oscillating[] = {Variable::alpha, Variable::beta, Variable::p,        Variable::q,
+                                    Variable::r,     Variable::gust, Variable::side_gust};
 
 std::string entry_of(Variable variable, std::string_view what) {
   return fmt::format("oscillation_{}_{}", name(variable), what);

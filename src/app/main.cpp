@@ -190,6 +190,9 @@ int main(int argc, char** argv) {
       ->type_name("K")
       ->delimiter(',')
       ->check(number_from(1e-6, 1e3));
+  bool with_gusts = false;
+  frequency.add_flag("--gusts", with_gusts,
+                     "The responses to waves of air that the stream carries too, across it, per w / V");
   const auto* frequency_restart = add_run_arguments(frequency, arguments);
 
   auto& check = *app.add_subcommand("check", "Check case and mesh without running");
@@ -265,7 +268,7 @@ int main(int argc, char** argv) {
     if (run) return run_verb(arguments, comm);
     if (derivatives) return derivatives_verb(arguments, comm);
     if (adjoint) return adjoint_verb(arguments, loads, goals, comm);
-    if (frequency) return frequency_verb(arguments, reduced_frequencies, comm);
+    if (frequency) return frequency_verb(arguments, reduced_frequencies, with_gusts, comm);
     if (partition) return partition_verb(cut, comm);
     return printed(comm, [&] {
       if (check) return check_verb(arguments, whole_case, comm);

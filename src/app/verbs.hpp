@@ -58,7 +58,8 @@ RunStatus adjoint_verb(const CaseArguments& arguments, const std::vector<std::st
 
 /// Steady state, then its linear responses to flight variables that oscillate at the reduced frequencies `k`
 /// = omega length / 2V: alpha and q, on a full model beta, p and r too.
-RunStatus frequency_verb(const CaseArguments& arguments, std::vector<Real> k, const Communicator& comm);
+RunStatus frequency_verb(const CaseArguments& arguments, std::vector<Real> k, bool with_gusts,
+                         const Communicator& comm);
 
 /// Reads and checks case and mesh; prints what is improbable first, then what a run would work on, and on
 /// demand the whole case with every default.

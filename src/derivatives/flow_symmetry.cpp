@@ -16,8 +16,8 @@ constexpr Real nothing = 1e-6;
 
 // What the mirrors turn round.
 constexpr std::array<std::string_view, 3> loads_up{"CN", "Cl", "Cm"}, loads_aside{"CY", "Cl", "Cn"};
-constexpr std::array variables_up{alpha, q, p, alphadot, alphaddot},
-    variables_aside{beta, r, p, betadot, betaddot};
+constexpr std::array variables_up{alpha, q, p, alphadot, alphaddot, gust},
+    variables_aside{beta, r, p, betadot, betaddot, side_gust};
 
 bool is_one_of(const auto& all, const auto& one) {
   return std::ranges::find(all, one) != all.end();

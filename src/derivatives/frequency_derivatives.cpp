@@ -17,10 +17,20 @@ namespace alphadot {
 namespace {
 
 /// Variables that are solved for together: on a symmetric body those that answer alike.
-std::vector<std::vector<Variable>> oscillating(const Case& settings) {
+std::vector<std::vector<Variable>> oscillating(const Case& settings, bool with_gusts) {
   using enum Variable;
-  if (settings.reference.half_model) return {{alpha, q}};
-  return {{alpha, q}, {beta, r}, {p}};
+  std::vector<std::vector<Variable>> out{{alpha, q}};
+  if (!settings.reference.half_model) out.insert(out.end(), {{beta, r}, {p}});
+  if (with_gusts) out.push_back({gust});
+  if (with_gusts && !settings.reference.half_model) out.push_back({side_gust});
+  return out;
+}
+
+Oscillation oscillation_of(Variable variable, const FreestreamSettings& stream) {
+  Vec3 gust;
+  if (variable == Variable::gust) gust.z = stream.mach;
+  if (variable == Variable::side_gust) gust.y = stream.mach;
+  return {std::string(name(variable)), change_of(variable, stream), gust};
 }
 
 /// One decade better than responses to a constant change: each load is made of two parts.
@@ -68,10 +78,10 @@ void Oscillations::add(Variable variable, Real k, FrequencyResponse response) {
   solved_[{k, variable}] = std::move(response);
 }
 
-bool solve_oscillations(FlowCase& flow, const std::vector<Real>& frequencies, Oscillations& oscillations,
-                        const SolveObserver& observer) {
+bool solve_oscillations(FlowCase& flow, const std::vector<Real>& frequencies, bool with_gusts,
+                        Oscillations& oscillations, const SolveObserver& observer) {
   const Case& settings = flow.settings();
-  for (const auto& group : oscillating(settings)) {
+  for (const auto& group : oscillating(settings, with_gusts)) {
     std::vector<Real> open;
     std::vector<Frequency> asked;
     for (const Real k : frequencies) {
@@ -82,8 +92,7 @@ bool solve_oscillations(FlowCase& flow, const std::vector<Real>& frequencies, Os
     }
     if (open.empty()) continue;
     std::vector<Oscillation> sources;
-    for (const auto variable : group)
-      sources.push_back({std::string(name(variable)), change_of(variable, settings.freestream)});
+    for (const auto variable : group) sources.push_back(oscillation_of(variable, settings.freestream));
     FrequencySolver solver(flow.iteration(), flow.conditions(), settings_for(settings.derivatives), sources,
                            steady_error(flow.steady_orders()), observer.go_on);
     for (const auto variable : group)
@@ -108,7 +117,7 @@ bool solve_oscillations(FlowCase& flow, const std::vector<Real>& frequencies, Os
 }
 
 std::vector<FrequencyRow> frequency_rows(const FlowCase& flow, const std::vector<Real>& frequencies,
-                                         const Oscillations& oscillations,
+                                         bool with_gusts, const Oscillations& oscillations,
                                          std::vector<std::string>& shortfalls) {
   const Case& settings = flow.settings();
   const bool is_deep = flow.steady_orders() >= deep_steady_orders;
@@ -117,7 +126,7 @@ std::vector<FrequencyRow> frequency_rows(const FlowCase& flow, const std::vector
                                      flow.steady_orders(), deep_steady_orders));
   std::vector<FrequencyRow> rows;
   std::vector<Variable> variables;
-  for (const auto& group : oscillating(settings))
+  for (const auto& group : oscillating(settings, with_gusts))
     variables.insert(variables.end(), group.begin(), group.end());
   for (const Real k : frequencies)
     for (const auto variable : variables) {

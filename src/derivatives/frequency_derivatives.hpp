@@ -41,12 +41,12 @@ class Oscillations {
 /// omega length / 2V, ascending, to alpha and q, on a full model beta, p and r too; but for those that
 /// `oscillations` has already, which takes the others; the observer is told of each. False when the observer
 /// ended it. Collective. Throws DivergedError.
-bool solve_oscillations(FlowCase& flow, const std::vector<Real>& frequencies, Oscillations& oscillations,
-                        const SolveObserver& observer = {});
+bool solve_oscillations(FlowCase& flow, const std::vector<Real>& frequencies, bool with_gusts,
+                        Oscillations& oscillations, const SolveObserver& observer = {});
 
 /// All rows, of the whole and of every wall; adds why some are not converged to `shortfalls`.
 std::vector<FrequencyRow> frequency_rows(const FlowCase& flow, const std::vector<Real>& frequencies,
-                                         const Oscillations& oscillations,
+                                         bool with_gusts, const Oscillations& oscillations,
                                          std::vector<std::string>& shortfalls);
 
 }  // namespace alphadot

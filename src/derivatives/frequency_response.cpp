@@ -24,13 +24,11 @@ class FrequencyOperator {
   static constexpr std::size_t parts = 2;
   static constexpr auto transposed = Transposed::no;
 
-  /// `sources`: [N owned_cells], with `own_loads`, [N]; real, and apart from the tangent's.
   FrequencyOperator(ImplicitIteration& iteration, const Linearisation& linearisation, Real omega,
-                    std::span<const Conserved<Real>> sources, std::span<const std::vector<Load>> own_loads)
+                    std::array<OscillatingSource, N> sources)
       : iteration_(iteration),
         omega_(omega),
-        sources_(sources),
-        own_loads_(own_loads),
+        sources_(std::move(sources)),
         scaling_(iteration.discretization(), iteration.flow(), linearisation.conditions()),
         tangent_(linearisation, iteration.moment_center()),
         cells_(static_cast<std::size_t>(iteration.discretization().domain().owned_cells)) {
@@ -57,10 +55,10 @@ class FrequencyOperator {
       add_mass_term(iteration_, -omega_, halves[2 * k + 1], half_images[2 * k]);
       add_mass_term(iteration_, omega_, halves[2 * k], half_images[2 * k + 1]);
       if (!with_source) continue;
-      for (std::size_t cell = 0; cell < cells_; ++cell)
-        half_images[2 * k][cell] += sources_[k * cells_ + cell];
-      for (std::size_t patch = 0; patch < own_loads_[k].size(); ++patch)
-        loads_[2 * k][patch] += own_loads_[k][patch];
+      for (std::size_t cell = 0; cell < 2 * cells_; ++cell) images[k][cell] += sources_[k].residual[cell];
+      for (std::size_t part = 0; part < 2; ++part)
+        for (std::size_t patch = 0; patch < loads_[2 * k + part].size(); ++patch)
+          loads_[2 * k + part][patch] += sources_[k].loads[part][patch];
     }
   }
   std::vector<Real> functionals(std::size_t k) const {
@@ -89,8 +87,7 @@ class FrequencyOperator {
  private:
   ImplicitIteration& iteration_;
   Real omega_;
-  std::span<const Conserved<Real>> sources_;
-  std::span<const std::vector<Load>> own_loads_;
+  std::array<OscillatingSource, N> sources_;
   CellScaling scaling_;
   Tangent<2 * N> tangent_;
   std::size_t cells_;
@@ -195,24 +192,37 @@ FrequencySolver::FrequencySolver(ImplicitIteration& iteration, const Conditions<
   if (oscillations_.empty() || oscillations_.size() > most_oscillations)
     throw std::logic_error("one or two oscillations are solved for together");
   basis_.settings.method = SensitivityMethod::gmres;
+}
+
+OscillatingSource FrequencySolver::source_of(const Oscillation& oscillation, Real omega) {
+  ImplicitIteration& iteration = basis_.iteration;
+  if (norm(oscillation.gust) > 0)
+    return gust_wave(basis_.linearisation, oscillation.gust, omega, iteration.moment_center());
   const auto cells = static_cast<std::size_t>(iteration.discretization().domain().owned_cells);
-  const CellScaling scaling(iteration.discretization(), iteration.flow(), basis_.linearisation.conditions());
   const std::vector<Primitive<Real>> zero(cells);
+  OscillatingSource out{std::vector<Conserved<Real>>(2 * cells), {}};
   Tangent<1> tangent(basis_.linearisation, iteration.moment_center());
-  for (const auto& oscillation : oscillations_) {
-    std::vector<Conserved<Real>> source(cells);
-    tangent.apply({zero}, {oscillation.change}, {source});
-    own_loads_.push_back(tangent.loads()[0]);
-    ReducedModel::Source known{std::vector<Primitive<Real>>(2 * cells), numbers_of(own_loads_.back())};
-    scaling.scale(source, std::span(known.scaled).first(cells));
-    iteration.sum(known.functionals);
-    known.functionals.resize(2 * known.functionals.size());
-    std::vector<Real> squares{square(known.scaled)};
-    iteration.sum(squares);
-    source_norms_.push_back(std::sqrt(squares[0]));
-    model_.add_source(std::move(known));
-    sources_.insert(sources_.end(), source.begin(), source.end());
-  }
+  tangent.apply({zero}, {oscillation.change}, {std::span(out.residual).first(cells)});
+  out.loads[0] = tangent.loads()[0];
+  out.loads[1].resize(out.loads[0].size());
+  return out;
+}
+
+std::size_t FrequencySolver::add_source(const OscillatingSource& source) {
+  ImplicitIteration& iteration = basis_.iteration;
+  const std::size_t cells = source.residual.size() / 2;
+  const CellScaling scaling(iteration.discretization(), iteration.flow(), basis_.linearisation.conditions());
+  ReducedModel::Source known{std::vector<Primitive<Real>>(2 * cells), numbers_of(source.loads[0])};
+  const auto imaginary = numbers_of(source.loads[1]);
+  known.functionals.insert(known.functionals.end(), imaginary.begin(), imaginary.end());
+  iteration.sum(known.functionals);
+  const std::span scaled(known.scaled);
+  scaling.scale(std::span(source.residual).first(cells), scaled.first(cells));
+  scaling.scale(std::span(source.residual).last(cells), scaled.last(cells));
+  std::vector<Real> squares{square(known.scaled)};
+  iteration.sum(squares);
+  source_norms_.push_back(std::sqrt(squares[0]));
+  return model_.add_source(std::move(known));
 }
 
 void FrequencySolver::know(std::span<const Primitive<Real>> response) {
@@ -233,33 +243,42 @@ void FrequencySolver::know(std::span<const Primitive<Real>> response) {
   }
 }
 
-std::vector<FrequencySolver::Projections> FrequencySolver::known_at(const Frequency& frequency) const {
+std::vector<FrequencySolver::Projections> FrequencySolver::known_at(const Asked& asked) const {
   std::vector<Projections> out;
-  for (std::size_t k = 0; k < oscillations_.size(); ++k)
-    out.push_back(model_.project(k, frequency.omega, frequency.imaginary_weight));
+  for (const std::size_t source : asked.sources)
+    out.push_back(model_.project(source, asked.frequency.omega, asked.frequency.imaginary_weight));
   return out;
 }
 
-Real FrequencySolver::left_by(const std::vector<Projections>& known) const {
+Real FrequencySolver::left_by(const Asked& asked) const {
+  const auto known = known_at(asked);
   Real out = 0;
   for (std::size_t k = 0; k < known.size(); ++k)
-    if (source_norms_[k] > 0)
-      out = std::max(out, known[k].empty() ? 1 : known[k].back().norm / source_norms_[k]);
+    if (const Real whole = source_norms_[asked.sources[k]]; whole > 0)
+      out = std::max(out, known[k].empty() ? 1 : known[k].back().norm / whole);
   return out;
 }
 
 bool FrequencySolver::solve(std::span<const Frequency> frequencies, const Take& take) {
+  std::vector<Asked> all;
+  for (const Frequency& frequency : frequencies) all.push_back({frequency, {}});
+  for (const auto& oscillation : oscillations_) {
+    const bool is_wave = norm(oscillation.gust) > 0;  // another source at each frequency
+    for (Asked& asked : all)
+      asked.sources.push_back(is_wave || &asked == all.data()
+                                  ? add_source(source_of(oscillation, asked.frequency.omega))
+                                  : all.front().sources.back());
+  }
   std::vector<std::size_t> open;
-  for (std::size_t i = frequencies.size(); i-- > 0;) open.push_back(i);
+  for (std::size_t i = 0; i < all.size(); ++i) open.push_back(i);
   std::ranges::stable_sort(open, std::greater{}, [&](std::size_t i) { return frequencies[i].omega; });
   while (!open.empty()) {
-    const auto next =
-        std::ranges::max_element(open, {}, [&](std::size_t i) { return left_by(known_at(frequencies[i])); });
+    const auto next = std::ranges::max_element(open, {}, [&](std::size_t i) { return left_by(all[i]); });
     const std::size_t number = *next;
     open.erase(next);
     std::vector<FrequencyResponse> responses;
-    const bool is_done = oscillations_.size() == 1 ? solve_at<1>(frequencies[number], responses)
-                                                   : solve_at<2>(frequencies[number], responses);
+    const bool is_done =
+        oscillations_.size() == 1 ? solve_at<1>(all[number], responses) : solve_at<2>(all[number], responses);
     if (!is_done) return false;
     if (!open.empty() && responses.front().iterations > 0)
       for (const auto& response : responses) know(response.field);
@@ -269,21 +288,24 @@ bool FrequencySolver::solve(std::span<const Frequency> frequencies, const Take& 
 }
 
 template <int N>
-bool FrequencySolver::solve_at(const Frequency& frequency, std::vector<FrequencyResponse>& out) {
-  const auto known = known_at(frequency);
+bool FrequencySolver::solve_at(const Asked& asked, std::vector<FrequencyResponse>& out) {
+  const auto& [omega, imaginary_weight] = asked.frequency;
+  const auto known = known_at(asked);
   std::array<std::vector<Primitive<Real>>, N> guesses;
   std::array<BlockProblem, N> problems;
+  std::array<OscillatingSource, N> sources;
   for (std::size_t k = 0; k < N; ++k) {
     if (!known[k].empty()) guesses[k] = model_.field(known[k].back());
-    problems[k] = {oscillations_[k].name, basis_.settings.orders,     guesses[k],
-                   source_norms_[k],      frequency.imaginary_weight, is_sampled(known[k])};
+    problems[k] = {oscillations_[k].name,           basis_.settings.orders, guesses[k],
+                   source_norms_[asked.sources[k]], imaginary_weight,       is_sampled(known[k])};
+    sources[k] = source_of(oscillations_[k], omega);
   }
-  FrequencyOperator<N> shifted(basis_.iteration, basis_.linearisation, frequency.omega, sources_, own_loads_);
+  FrequencyOperator<N> shifted(basis_.iteration, basis_.linearisation, omega, std::move(sources));
   BlockSolve<N, FrequencyOperator<N>> way(shifted, basis_.iteration, basis_.linearisation.conditions(),
                                           problems, basis_.settings, basis_.go_on);
   if (!way.solve()) return false;
   for (std::size_t k = 0; k < N; ++k)
-    out.push_back(response_of(basis_.settings.orders, inherited_error_, frequency.imaginary_weight,
+    out.push_back(response_of(basis_.settings.orders, inherited_error_, imaginary_weight,
                               std::move(way.field(k)), way.record(k), known[k], way.iterations(),
                               basis_.body_size, basis_.iteration.communicator()));
   return true;

@@ -8,16 +8,18 @@
 #include <vector>
 
 #include "derivatives/derivative_basis.hpp"
+#include "derivatives/gust_wave.hpp"
 #include "derivatives/reduced_model.hpp"
 #include "linear/tangent.hpp"
 #include "march/implicit_iteration.hpp"
 
 namespace alphadot {
 
-/// What oscillates: c = c0 + change exp(i omega t).
+/// What oscillates: c = c0 + change exp(i omega t); or, where it is not zero, a gust_wave() of this velocity.
 struct Oscillation {
   std::string name;
   ConditionsChange change;
+  Vec3 gust = {};
 };
 
 /// Responses to them, several at a time: of linear problems (A + i omega M) U = -(dR/dc) about a steady flow,
@@ -65,20 +67,26 @@ class FrequencySolver {
 
  private:
   using Projections = std::vector<ReducedModel::Projection>;  // of fewer fields first
+  /// A frequency and the numbers of the sources there, of each oscillation.
+  struct Asked {
+    Frequency frequency;
+    std::vector<std::size_t> sources;
+  };
 
+  /// [2 owned_cells] of the complex source, and its loads.
+  OscillatingSource source_of(const Oscillation& oscillation, Real omega);
+  std::size_t add_source(const OscillatingSource& source);
   /// What is known of the responses at a frequency, of each oscillation.
-  std::vector<Projections> known_at(const Frequency& frequency) const;
+  std::vector<Projections> known_at(const Asked& asked) const;
   /// The largest share of the source that they leave.
-  Real left_by(const std::vector<Projections>& known) const;
+  Real left_by(const Asked& asked) const;
   template <int N>
-  bool solve_at(const Frequency& frequency, std::vector<FrequencyResponse>& out);
+  bool solve_at(const Asked& asked, std::vector<FrequencyResponse>& out);
 
   DerivativeBasis basis_;
   std::vector<Oscillation> oscillations_;
   Real inherited_error_;
-  std::vector<Conserved<Real>> sources_;      // [oscillations owned_cells] dR/dc
-  std::vector<std::vector<Load>> own_loads_;  // [oscillations] that the change itself makes, of this rank
-  std::vector<Real> source_norms_;
+  std::vector<Real> source_norms_;  // |D b| by the number of the source
   ReducedModel model_;
 };
 

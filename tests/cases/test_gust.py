@@ -7,6 +7,7 @@ about the nose loses half of that, 0.55 %.
 
 from __future__ import annotations
 
+import cmath
 import csv
 import math
 import tempfile
@@ -68,6 +69,31 @@ class Gust(ExactCase):
         for load in ("total/CN", "total/Cm"):
             for a, b in zip(by_plunge, by_gust, strict=True):
                 self.assert_close(f"{load} at t* = {a['t_star']}", b[load], a[load], 2 * k, of=size)
+
+    def test_in_time_and_by_frequency(self) -> None:
+        """A harmonic gust at k = 0.5 on the cone: histories of 24 and 48 steps a cycle, extrapolated, beside the frequency response."""
+        k, cycles, velocity = 0.5, 2, 0.001
+        case = "sharp_cone/derivatives.toml"
+        with tempfile.TemporaryDirectory() as folder:
+            result = run(Path(folder), "frequency", case, "cone_tiny.msh", {}, options=["--k", str(k), "--gusts"])
+        linear = {name: entry["value"] for name, entry in result["derivatives"].items()}
+        amplitudes = []
+        for steps in (24, 48):
+            rows = self.histories(case, "cone_tiny.msh", {
+                "gust.kind": "harmonic", "gust.velocity": velocity, "gust.length": math.pi / k,
+                "gust.front": result["reference"]["moment_center"][0], "unsteady.duration": cycles * 2 * math.pi / k,
+                "unsteady.steps": cycles * steps, "unsteady.inner_tolerance": 1e-4,
+            })[-steps:]  # fmt: skip
+            amplitudes.append({
+                load: sum(row[load] * cmath.exp(-1j * k * row["t_star"]) for row in rows) * 2j / steps / velocity
+                for load in ("total/CN", "total/Cm")
+            })  # fmt: skip
+        for name in ("CN", "Cm"):
+            coarse, fine = (amplitude[f"total/{name}"] for amplitude in amplitudes)
+            load = (4 * fine - coarse) / 3
+            expected = complex(linear[f"{name}_gust, k = {k:g}"], k * linear[f"{name}_gustdot, k = {k:g}"])
+            self.assert_close(name, abs(load), abs(expected), 0.002)
+            self.assertLess(abs(math.degrees(cmath.phase(load / expected))), 0.2, name)
 
     def test_body_that_is_carried_along(self) -> None:
         """A cone of mass m over rho l^3, free in heave, takes up the gust's velocity: w' = c CN_alpha (1 - w) - c CN_alphadot w' over t*,
