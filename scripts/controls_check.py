@@ -1,13 +1,14 @@
 #!/usr/bin/python3
 """Controls from several sides: linear solves, flows with panels turned, the half and the full model; and what they cost.
 
-  scripts/controls_check.py [DESCRIPTION] [--level coarse] [--degrees 0.5] [--angles 2 5 10] [--mach 2] [--alpha 0] [--out runs/controls_check]
+  scripts/controls_check.py [DESCRIPTION] [--level coarse] [--degrees 0.5] [--angles 2 5 10] [--mach 2] [--alpha 0] [--out FOLDER]
 
 Meshes a description whose fins all turn about the middles of their roots, half and full, and compares, in per cent of the largest number
 of a kind: derivatives by each control, the mesh deforming and by transpiration, with central differences of flows on deformed meshes (nine
-decades all); one panel at finite angles, by either, with meshes of the turned geometry; loads of the panels of the half model with those of
-the full one, which differ as the meshes do. Then what a control costs beside a solve for a flight variable, and what adjoints cost, which
-have all controls. Exit code 1 when solves with the mesh deforming are off by more than --tolerance per cent. Minutes.
+decades all), and the roll of the full model; one panel at finite angles, by either, with meshes of the turned geometry; loads of the panels
+of the half model with those of the full one, which differ as cells beside the plane of symmetry do. Then what a control costs beside a
+solve for a flight variable, and what adjoints cost, which have all controls. Exit code 1 when solves with the mesh deforming are off by
+more than --tolerance per cent. Minutes.
 """
 
 from __future__ import annotations
@@ -55,14 +56,17 @@ class Check:
         if done.returncode not in (0, 5) and "folds" not in done.stderr:
             sys.exit(f"controls_check.py: {' '.join(map(str, words))}\n{done.stderr[-2000:]}")
 
-    def mesh(self, model: str, turned: float = 0) -> Path:
-        """With the first of the last fins, and its mirror image, turned by so many degrees."""
+    def mesh(self, model: str, turned: float = 0, panel: int = 0) -> Path:
+        """With a panel of the last fins, and its mirror image, turned by so many degrees."""
         folder = self.out / (f"mesh_{turned:g}" if turned else f"mesh_{model}")
         description = self.description
         if turned:
             content = tomllib.loads(description.read_text())
             fins = content["fins"][-1]
-            fins["deflection"] = [turned] + [0.0] * (fins["number"] - 2) + [-turned]
+            number, roll = fins["number"], fins.get("roll", 0.0)
+            fins["deflection"] = [0.0] * number
+            fins["deflection"][panel - 1] = turned
+            fins["deflection"][round(-2 * roll * number / 360 - (panel - 1)) % number] = -turned
             description = self.out / f"description_{turned:g}.toml"
             description.write_text(toml_document(content))
         words = ("-o", folder, "--level", self.level, "--model", model, "--no-picture")
@@ -103,15 +107,29 @@ def differences(check: Check, case: Path, degrees: float) -> float:
     return compared(f"solves, the mesh deforming, {title}", ("solve", "flows"), lines(deforming))
 
 
+def rolls(check: Check, full: Path, degrees: float) -> float:
+    """The rolling moment by each set of panels that rolls the full model; the largest difference in per cent of the largest."""
+    sets = {name: shares for name, shares in tomllib.loads(full.read_text())["control_sets"].items() if name.endswith("roll")}
+    solved = check.run("derivatives", full, "solves_full", *DEEP)["derivatives"]
+    lines: list[Line] = []
+    for name, shares in sets.items():
+        angles = {f"deflections.{panel}": share * degrees for panel, share in shares.items()}
+        turned = lambda sign: [word for key, angle in angles.items() for word in ("--set", f"{key}={sign * angle}")]
+        low, high = (check.run("run", full, f"{name}_{sign:+d}", *DEEP, *turned(sign))["forces"]["Cl"] for sign in (-1, 1))
+        lines.append((f"Cl_{name}", "Cl", solved[f"Cl_{name}"]["value"], (high - low) / math.radians(2 * degrees)))
+    return compared(f"roll of the full model, solves beside flows at ±{degrees:g} degrees", ("solve", "flows"), lines)
+
+
 def finite(check: Check, case: Path, angles: list[float]) -> None:
-    """The first of the last panels turned by finite angles, beside meshes of the turned geometry, which know no limit."""
-    number = len(check.content["fins"])
-    panel = check.content["fins"][-1].get("name", f"fin{number}" if number > 1 else "fin") + "_1"
+    """The first of the last panels that may turn, by finite angles, beside meshes of the turned geometry, which know no limit."""
+    names = [control["name"] for control in tomllib.loads(case.read_text())["controls"]]
+    panel = next(name for name in names if name.rpartition("_")[0] == names[-1].rpartition("_")[0])
     number_and_error = lambda x, true: ("folds", "") if math.isnan(x) else (f"{x:.5g}", f"{100 * (x / true - 1):+.2g}")
     lines = []
     for angle in angles:
         turned = ("--set", f"deflections.{panel}={angle}")
-        runs = {"geometry": (check.mesh("half", angle),), "mesh": (case, *turned), "transpiration": (case, *turned, *TRANSPIRATION)}
+        geometry = check.mesh("half", angle, int(panel.rpartition("_")[2]))
+        runs = {"geometry": (geometry,), "mesh": (case, *turned), "transpiration": (case, *turned, *TRANSPIRATION)}
         loads = []
         for way, (of_case, *words) in runs.items():
             result = check.run("run", of_case, f"{way}_{angle:g}", *words)
@@ -183,7 +201,7 @@ def main() -> int:
     arguments = parser.parse_args()
     check = Check(arguments)
     half, full = check.mesh("half"), check.mesh("full")
-    worst = differences(check, half, arguments.degrees)
+    worst = max(differences(check, half, arguments.degrees), rolls(check, full, arguments.degrees))
     if arguments.angles:
         finite(check, half, arguments.angles)
     half_and_full(check, half, full)

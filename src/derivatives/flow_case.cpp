@@ -84,8 +84,10 @@ void check_control(const ControlSettings& control, const Deflection& deflection,
                      fmt::format("control {} turns walls out of the plane of symmetry", control.name),
                      "use a full model, or a hinge across that plane");
   if (deflection.hinge_distance > 1)
-    spdlog::warn("control {}: the hinge is {:.2g} times as far from its walls as they are large",
-                 control.name, deflection.hinge_distance);
+    spdlog::warn(
+        "control {}: its hinge is {:.2g} times as far from its walls as they are large; its point is in the "
+        "units of [reference], after mesh.scale",
+        control.name, deflection.hinge_distance);
   if (at_walls > much && flow.settings().space.deflection == DeflectionKind::mesh)
     spdlog::warn(
         "control {}: where its walls meet others that stay they lose up to {:.0f} % of their displacement; "
