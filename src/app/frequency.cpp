@@ -1,18 +1,37 @@
 // The verb "frequency": stability derivatives at finite frequency from linear solves.
 #include <algorithm>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "analysis/frequency_table.hpp"
+#include "analysis/rational_fit.hpp"
 #include "app/case_run.hpp"
 #include "app/kept_solutions.hpp"
 #include "app/load_case.hpp"
 #include "app/stop.hpp"
 #include "app/verbs.hpp"
+#include "core/log.hpp"
 #include "core/timer.hpp"
+#include "io/files.hpp"
 
 namespace alphadot {
+
+namespace {
+
+/// Into rational_fit.csv; too few frequencies for a fit leave none.
+void write_fits(std::span<const VariableFit> fits, const TableHead& head, const std::string& folder) {
+  if (fits.empty()) return;
+  for (const auto& [variable, coefficients, fit] : fits)
+    spdlog::info(
+        "rational fit of {}: {} states, off by {:.2g} % of the response, {:.2g} % between frequencies",
+        name(variable), fit.states(), 100 * *std::ranges::max_element(fit.error),
+        100 * *std::ranges::max_element(fit.error_between));
+  replace_file_with(folder + "/rational_fit.csv", rational_fit_csv(fits, head));
+}
+
+}  // namespace
 
 RunStatus frequency_verb(const CaseArguments& arguments, std::vector<Real> frequencies, bool with_gusts,
                          const Communicator& comm) {
@@ -41,7 +60,10 @@ RunStatus frequency_verb(const CaseArguments& arguments, std::vector<Real> frequ
     return is_done ? marched : RunStatus::interrupted;
   });
   return run.conclude(status, table_rows(rows), linear_cpu, "linear solves", "frequency.csv",
-                      [&](const TableHead& head) { return frequency_csv(rows, head); });
+                      [&](const TableHead& head) {
+                        write_fits(rational_fits(rows), head, record.folder());
+                        return frequency_csv(rows, head);
+                      });
 }
 
 }  // namespace alphadot

@@ -62,7 +62,9 @@ of the verb adjoint with \-\-indicator: where on the mesh the errors of derivati
 of the verb derivatives with \-\-tolerance: values and intervals of every family of meshes, and where its cells are
 .TP
 .I frequency.csv
-of the verb frequency: responses to oscillating variables, of the whole and of every wall
+of the verb frequency: responses to oscillating variables, of the whole and of every wall; from four frequencies on
+.I rational_fit.csv
+: a few states that answer so in time
 .TP
 .I checkpoint_NNNNNN.vtkhdf
 what \-\-restart goes on from

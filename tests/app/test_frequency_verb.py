@@ -12,6 +12,7 @@ import tempfile
 import unittest
 from pathlib import Path
 
+import numpy as np
 from program import CASE, RANKS, Outcome, box, gmsh_text, run, write_case
 
 
@@ -67,6 +68,30 @@ class FrequencyTest(unittest.TestCase):
             response = complex(float(whole["in_phase"]), float(whole["k"]) * float(whole["out_of_phase"]))
             self.assertAlmostEqual(float(whole["modulus"]), abs(response))
             self.assertAlmostEqual(math.cos(math.radians(float(whole["phase_deg"]))) * abs(response), response.real)
+
+    def test_rational_fit(self) -> None:
+        """The states of its file, solved for by numpy, answer as the table says, within the errors that it states."""
+        self.run_as(0, "frequency", "fit", "--k", "0.02,0.1,0.2,0.3,0.4,0.5")
+        read = lambda name: list(csv.DictReader(line for line in (self.folder / "fit" / name).read_text().splitlines() if line[0] != "#"))
+        fit, table = read("rational_fit.csv"), [row for row in read("frequency.csv") if row["part"] == "total"]
+        self.assertEqual({row["variable"] for row in fit}, {"alpha", "q", "beta", "p", "r"})
+        for variable, load in (("alpha", "CN"), ("alpha", "Cm"), ("q", "Cm"), ("beta", "Cl")):
+            entries = {(row["matrix"], row["row"], row["column"]): float(row["value"]) for row in fit if row["variable"] == variable}
+            states = [str(n + 1) for n in range(sum(matrix == "c" and row == load for matrix, row, _ in entries))]
+            a = np.array([[entries.get(("A", i, j), 0.0) for j in states] for i in states])
+            b, c = np.array([entries.get(("b", i, "1"), 0.0) for i in states]), np.array([entries["c", load, n] for n in states])
+            self.assertLess(max(np.linalg.eigvals(a).real), 0)
+            rows = [row for row in table if (row["variable"], row["coefficient"]) == (variable, load)]
+            self.assertEqual(len(rows), 6)
+            size = max(float(row["modulus"]) for row in rows)
+            for row in rows:
+                k = float(row["k"])
+                found = c @ np.linalg.solve(1j * k * np.eye(len(states)) - a, b) + entries["d", load, "1"]
+                error = abs(found - complex(float(row["in_phase"]), k * float(row["out_of_phase"])))
+                self.assertLessEqual(error, entries["error", load, "1"] * size * 1.0001 + 1e-12, (variable, load, k))
+            self.assertLess(entries["error", load, "1"], 0.05)
+        self.run_as(0, "frequency", "few", "--k", "0.1,0.2,0.3")
+        self.assertFalse((self.folder / "few/rational_fit.csv").exists())
 
     def test_says_what_was_not_reached(self) -> None:
         for settings, part in (
