@@ -71,7 +71,7 @@ class Surveyor {
       farthest = std::max({farthest, std::abs(out_.domain.lower[d]), std::abs(out_.domain.upper[d])});
     // Generators place points on planes to some digits of the model's size, files keep some of the
     // coordinates.
-    out_.tolerance = 1e-5 * norm(out_.domain.upper - out_.domain.lower) + 1e-7 * farthest;
+    out_.tolerance = 1e-6 * norm(out_.domain.upper - out_.domain.lower) + 1e-7 * farthest;
   }
 
   void look_at_regions() {
@@ -234,7 +234,9 @@ class Surveyor {
         const std::size_t at = side * patches + static_cast<std::size_t>(domain_.boundary_faces[face].patch);
         const auto corners_there =
             std::ranges::count_if(corners(face), [&](const Vec3& x) { return is_on(sides[side], x); });
-        if (corners_there == 3) lies_in_side[at] = 1;
+        const Vec3& normal = domain_.boundary_normal[face];
+        if (corners_there == 3 && dot(normal, sides[side].normal) > 0.9999 * norm(normal))
+          lies_in_side[at] = 1;
         if (corners_there == 2) ends_in_side[at] = 1;
       }
     comm_.sum(std::span<Real>(lies_in_side));

@@ -371,6 +371,31 @@ TEST(Plausibility, LooksAtSidesThatMayBePlanesOfSymmetry) {
   EXPECT_TRUE(seen(BoundaryKind::jet, whole_cube(), 1).findings.problems.empty());
 }
 
+// A fin of 1 % half thickness before a body, both cut by the plane of symmetry, in a far field of 2,000
+// chords.
+TEST(Plausibility, AThinFinInThePlaneOfSymmetryIsNoSideOfTheMesh) {
+  Mesh mesh = half_cube();
+  const auto faces = std::move(mesh.patches.back().triangles);
+  mesh.patches.back().triangles.clear();
+  mesh.patches.push_back({"body", {}});
+  for (const auto& face : faces) {
+    const auto x = [&](std::size_t corner) { return mesh.points[static_cast<std::size_t>(face[corner])].x; };
+    mesh.patches[x(0) + x(1) + x(2) > 4.6 ? 7 : 6].triangles.push_back(face);
+  }
+  transform(mesh, [](const Vec3& p) {
+    const auto far = [](Real at, Real from, Real to) {
+      return at + 1000 * (std::min(at - from, 0.0) + std::max(at - to, 0.0));
+    };
+    const Real near = (p.x < 1.75 ? 0.02 : 1) * p.y;
+    return Vec3{far(p.x, 0, 4), p.y < 0.6 ? near : 700 * (p.y - 0.6), far(p.z, -1, 1)};
+  });
+  Kinds kinds = half_kinds;
+  kinds.push_back(wall);
+  const auto seen = look(mesh, kinds, case_of(true, 0.5));
+  EXPECT_TRUE(seen.facts.open_sides.empty());
+  EXPECT_TRUE(seen.findings.problems.empty());
+}
+
 TEST(Plausibility, WarnsOfAJetThatLooksAhead) {
   Kinds kinds = whole_kinds;
   kinds[0] = wall;
