@@ -59,6 +59,8 @@ CheckpointHead FlowCheckpoint::steady_head(std::string phase) const {
   out.numbers["cfl"] = {steady.cfl};
   out.numbers["residuals"] = {steady.first_residual, steady.previous_residual};
   out.numbers["lowest_residual"] = {steady.lowest_residual, static_cast<Real>(steady.lowest_at)};
+  out.numbers["begun"] = {steady.begun_residual, static_cast<Real>(steady.begun_at),
+                          static_cast<Real>(steady.rejections)};
   out.numbers["krylov"] = {static_cast<Real>(steady.krylov)};
   out.numbers["load_range"] = numbers_of(std::array{steady.least, steady.most});
   return out;
@@ -67,10 +69,13 @@ CheckpointHead FlowCheckpoint::steady_head(std::string phase) const {
 void FlowCheckpoint::restore_march() {
   const auto& numbers = checkpoints_.restart()->numbers;
   const auto range = loads_of(numbers.at("load_range"));
+  const auto begun = numbers.contains("begun") ? numbers.at("begun")
+                                               : std::vector<Real>{numbers.at("residuals").at(0), 0, 0};
   flow_.go_on_from(
       {{static_cast<int>(numbers.at("iteration").at(0)), numbers.at("cfl").at(0),
         numbers.at("residuals").at(0), numbers.at("residuals").at(1), numbers.at("lowest_residual").at(0),
-        static_cast<int>(numbers.at("lowest_residual").at(1)), range.at(0), range.at(1),
+        static_cast<int>(numbers.at("lowest_residual").at(1)), begun.at(0), static_cast<int>(begun.at(1)),
+        static_cast<int>(begun.at(2)), range.at(0), range.at(1),
         numbers.contains("krylov") ? static_cast<KrylovSteps>(numbers.at("krylov").at(0))
                                    : KrylovSteps::not_yet},
        static_cast<std::size_t>(numbers.at("attempt").at(0))});

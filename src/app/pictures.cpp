@@ -1,15 +1,12 @@
 #include "app/pictures.hpp"
 
+#include "derivatives/loads.hpp"
 #include "derivatives/part.hpp"
 #include "io/vtkhdf.hpp"
 
 namespace alphadot {
 
 namespace {
-
-Real pressure_coefficient(Real pressure, const FreestreamSettings& stream) {
-  return 2 * (pressure - 1 / stream.gamma) / (stream.mach * stream.mach);
-}
 
 void write_flow_picture(const std::string& path, const Setup& setup, const FlowField<Real>& flow,
                         const Origin& origin, const Communicator& comm) {
@@ -22,8 +19,8 @@ void write_flow_picture(const std::string& path, const Setup& setup, const FlowF
     density[i] = w[0];
     pressure[i] = w[4];
     speed[i] = velocity(w);
-    mach[i] = norm(speed[i]) / sound_speed(w, stream.gamma);
-    cp[i] = pressure_coefficient(w[4], stream);
+    mach[i] = mach_number(w, stream.gamma);
+    cp[i] = pressure_coefficient(w[4], setup.settings);
   }
   write_flow(path, setup.domain,
              {{"density", density},
@@ -49,7 +46,7 @@ void write_surface_pictures(const std::string& folder, const Setup& setup, const
                             const FieldsOnFaces& more, const Origin& origin, const Communicator& comm) {
   const auto pressure = iteration.residual().boundary_pressures();
   std::vector<Real> cp;
-  for (const Real p : pressure) cp.push_back(pressure_coefficient(p, setup.settings.freestream));
+  for (const Real p : pressure) cp.push_back(pressure_coefficient(p, setup.settings));
   std::vector<VtkField> fields{{"pressure", {pressure.begin(), pressure.end()}}, {"cp", cp}};
   if (const auto planes = patches_of(setup, false); !planes.empty())
     write_surface(folder + "/symmetry.vtkhdf", setup.domain, fields, origin, comm, planes);

@@ -30,8 +30,7 @@ void append(History::Row& row, const std::string& group, const Coefficients& c) 
 void append(History::Row& row, const FreeFlight& flight, const Case& settings) {
   const auto& state = flight.state();
   const auto& reference = settings.reference;
-  const Real work =
-      0.5 * settings.freestream.mach * settings.freestream.mach * reference.area * reference.length;
+  const Real work = unit_work(settings);
   const Vec3 way = 1 / reference.length * state.position;
   const auto& [w, v] = state.attitude;
   row.insert(row.end(), {{"x", way.x},
@@ -48,7 +47,7 @@ void append(History::Row& row, const FreeFlight& flight, const Case& settings) {
 /// `flight`: of a body that flies freely, else null.
 History::Row history_row(const StepReport& step, const FlowCase& flow, const FreeFlight* flight) {
   const Case& settings = flow.settings();
-  const Real rate = settings.reference.length / (2 * settings.freestream.mach);
+  const Real rate = 1 / settings.unit_rate();
   const Vec3 rotation = on_turned_axes(step.attitude.rotation, step.attitude.angle);  // along body axes
   History::Row row{{"step", step.step},
                    {"time", step.time},

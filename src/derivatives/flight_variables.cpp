@@ -39,8 +39,7 @@ int rates_in(Variable variable) {
 Real rate_scale(Variable variable, const FlightCondition& settings) {
   using enum Variable;
   const bool is_rotation = variable == p || variable == q || variable == r;
-  return std::pow(2 * settings.freestream.mach / settings.reference.length,
-                  is_rotation ? 1 : rates_in(variable));
+  return std::pow(settings.unit_rate(), is_rotation ? 1 : rates_in(variable));
 }
 
 }  // namespace alphadot

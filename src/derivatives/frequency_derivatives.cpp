@@ -42,7 +42,7 @@ DerivativeSettings settings_for(DerivativeSettings settings) {
 Frequency frequency_of(Real k, const Case& settings) {
   /// By so much a body's passage is longer than its length of reference takes half of.
   constexpr Real passage = 4;
-  return {k * 2 * settings.freestream.mach / settings.reference.length, std::max(Real{1}, 1 / (passage * k))};
+  return {k * settings.unit_rate(), std::max(Real{1}, 1 / (passage * k))};
 }
 
 /// The response of one part of the configuration, a row a coefficient that symmetry leaves.

@@ -11,11 +11,19 @@ namespace alphadot {
 /// its mirror image cancels is zero.
 inline Coefficients coefficients(const Load& load, const FlightCondition& settings) {
   const auto& reference = settings.reference;
-  const Real dynamic_pressure = 0.5 * settings.freestream.mach * settings.freestream.mach;
-  const Real scale = (reference.half_model ? 2 : 1) / (dynamic_pressure * reference.area);
+  const Real scale = (reference.half_model ? 2 : 1) / (settings.dynamic_pressure() * reference.area);
   auto out = coefficients_of(scale * load.force, scale / reference.length * load.moment);
   if (reference.half_model) out.CY = out.Cl = out.Cn = 0;
   return out;
+}
+
+inline Real pressure_coefficient(Real pressure, const FlightCondition& settings) {
+  return (pressure - 1 / settings.freestream.gamma) / settings.dynamic_pressure();
+}
+
+/// Work and energy per this are per dynamic pressure, reference area and reference length.
+inline Real unit_work(const FlightCondition& settings) {
+  return settings.dynamic_pressure() * settings.reference.area * settings.reference.length;
 }
 
 /// The transpose: what a coefficient, by its number, takes of each entry of a load.

@@ -21,9 +21,11 @@ std::vector<Real> remaining_error(std::span<const Real> norms, std::span<const s
                                   Real inherited = 0);
 
 /// What derivatives about a steady flow are never surer than, as a share of their scale: flows bend where
-/// limiter or flux turn from one side to the other, and at an incidence 0.002 degrees off those of small cones,
-/// wedges, wings and finners were different by up to 6e-6.
-inline constexpr Real bends = 1e-5;
+/// limiter or flux turn from one side to the other. At an incidence 0.002 degrees off, derivatives of small
+/// cones, wedges, wings and finners were different by up to 6e-6; about a flow that is its own mirror image,
+/// where the limiter's neighbours tie and round-off chooses the side, by up to 3e-5 from one number of ranks
+/// to another and from the differences of flows.
+inline constexpr Real bends = 5e-5;
 
 /// Arm, in sizes of the body, by which forces count among moments where these are small about the centre
 /// chosen.

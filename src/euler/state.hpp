@@ -52,6 +52,10 @@ T sound_speed(const Primitive<T>& w, Real gamma) {
   return sqrt(gamma * w[4] / w[0]);
 }
 
+inline Real mach_number(const Primitive<Real>& w, Real gamma) {
+  return norm(velocity(w)) / sound_speed(w, gamma);
+}
+
 /// Free stream of the given Mach number; alpha turns it towards +z, beta (wind from starboard) towards -y.
 /// Radians.
 template <class T>

@@ -21,10 +21,15 @@ PassOrder pass_order(Real mach_along_x) {
   return mach_along_x < mostly_supersonic ? PassOrder::alternating : PassOrder::downstream;
 }
 
+int pass_pairs(PassOrder order, bool is_steady) {
+  return is_steady && order == PassOrder::alternating ? 16 : 4;
+}
+
 BlockLuSgs::BlockLuSgs(const Discretization& discretization, const Communicator& comm, int sweeps,
                        PassOrder order)
     : discretization_(discretization),
       comm_(comm),
+      asked_sweeps_(sweeps),
       sweeps_(sweeps),
       order_(order),
       matrix_(discretization.domain()) {
@@ -36,6 +41,7 @@ void BlockLuSgs::linearise(const FlowField<Real>& flow, const Conditions<Real>& 
   assemble_jacobian(discretization_, flow, conditions, time, matrix_);
   matrix_.scale_rows();
   is_transposed_ = false;
+  sweeps_ = asked_sweeps_ > 0 ? asked_sweeps_ : pass_pairs(order_, time.inverse_step == 0);
 }
 
 void BlockLuSgs::transpose() {

@@ -17,7 +17,7 @@ inline constexpr std::span<const Word<SchemeKind>> words_of<SchemeKind> = words:
 
 struct SteadySettings {
   SchemeKind scheme = SchemeKind::block_lu_sgs;
-  int sweeps = 4;              ///< pairs of passes of the block scheme
+  int sweeps = 0;              ///< pairs of passes of the block scheme; 0: as suits the free stream
   int krylov_directions = 20;  ///< most of a Newton-Krylov step, taken where the scheme is slow; 0: never
   Real cfl_start = 20;
   Real cfl_max = 1000;  ///< larger ones save little, and flow around fins at high incidence stands no more

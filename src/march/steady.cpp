@@ -17,8 +17,10 @@ constexpr int early_jacobian_age = 4, late_jacobian_age = 10;
 constexpr Real early_orders = 2;
 /// Decades after which the flow of a gentle march has taken shape.
 constexpr Real shaping_orders = 1;
-/// Iterations of first order that follow a rejected step.
+/// At most so many iterations of first order follow a rejected step, and no more once their residual has
+/// dropped to this share.
 constexpr int rescue_iterations = 20;
+constexpr Real rescued_share = 0.01;
 constexpr int most_rejections = 6;
 /// The limiter is frozen once the flow has taken shape and so many iterations have not lowered the residual
 /// to this share of the lowest; not where Newton-Krylov steps are in vain, which are given up instead.
@@ -28,7 +30,8 @@ constexpr Real stalled_orders = 1, little_progress = 0.5;
 /// is at its end. Smaller steps than those of this CFL number get as many more of them.
 constexpr int patience = 150;
 constexpr Real bold_cfl = 20;
-/// The scheme alone is slow when it has taken so many iterations, and so many for every decade.
+/// The scheme alone is slow when it has taken so many iterations of second order, and so many for every
+/// decade.
 constexpr int slow_iterations = 30, slow_iterations_a_decade = 20;
 /// Of Newton-Krylov steps: their largest CFL number over the scheme's, its greatest growth in one step, the
 /// growth of the residual and the smallest share at which a step is not halved once more, and the steps
@@ -79,7 +82,8 @@ SteadyResult march_to_steady(ImplicitIteration& iteration, const Conditions<Real
   const Real freeze_orders = iteration.discretization().space().freeze_orders;
   Real cfl = resumed ? from.cfl : settings.cfl_start;
   int rescue = 0;  // iterations of first order that are left
-  int rejections = 0, krylov_rejections = 0;
+  Real rescue_from = 0;
+  int rejections = from.rejections, krylov_rejections = 0;
   KrylovSteps krylov = from.krylov;
   const auto evaluate = [&] {
     iteration.evaluate(conditions, rescue > 0 ? 1 : order);
@@ -91,6 +95,8 @@ SteadyResult march_to_steady(ImplicitIteration& iteration, const Conditions<Real
   Real previous = resumed ? from.previous_residual : first;
   Real lowest = resumed ? from.lowest_residual : first;
   int lowest_at = from.lowest_at;
+  Real begun_residual = resumed ? from.begun_residual : first;
+  int begun_at = from.begun_at;
   LoadRange range{from.least, from.most};
   if (!resumed) range.begin(report.total);
   int jacobian_age = late_jacobian_age;
@@ -119,8 +125,10 @@ SteadyResult march_to_steady(ImplicitIteration& iteration, const Conditions<Real
     return count - lowest_at >= std::max(allowed, lowest_at);
   };
   const auto is_slow = [&] {
-    return count >= slow_iterations && !(is_gentle && orders() < shaping_orders) &&
-           orders() * slow_iterations_a_decade < count && rescue == 0 && order > 1;
+    if (rescue > 0 || order == 1 || (is_gentle && orders() < shaping_orders)) return false;
+    if (rejections > 1) return orders() * slow_iterations_a_decade < count;  // bold steps are too bold
+    const int made = count - begun_at;
+    return made >= slow_iterations && std::log10(begun_residual / previous) * slow_iterations_a_decade < made;
   };
   const auto turn_to = [&](KrylovSteps now) {
     krylov = now;
@@ -186,14 +194,16 @@ SteadyResult march_to_steady(ImplicitIteration& iteration, const Conditions<Real
       if (++rejections > most_rejections || cfl < smallest_cfl) return ended(RunStatus::diverged);
       rescue = rescue_iterations;
       report = evaluate();
-      previous = report.density_residual;
+      previous = rescue_from = report.density_residual;
       continue;
     }
     const Real drop = previous / report.density_residual;
     previous = report.density_residual;
-    if (rescue > 0 && --rescue == 0) {
+    if (rescue > 0 && (--rescue == 0 || previous < rescued_share * rescue_from)) {
+      rescue = 0;
       report = evaluate();  // the second-order residual is another one: no leap
-      previous = report.density_residual;
+      previous = begun_residual = report.density_residual;
+      begun_at = count;
     }
     if (krylov == KrylovSteps::taken && is_cut)
       cfl = drop < worthwhile_drop ? std::max(0.5 * cfl, std::min(cfl, settings.cfl_start)) : cfl;
@@ -214,13 +224,13 @@ SteadyResult march_to_steady(ImplicitIteration& iteration, const Conditions<Real
       turn_to(KrylovSteps::taken);
     else if (krylov == KrylovSteps::taken && count - lowest_at >= krylov_patience)
       turn_to(KrylovSteps::given_up);
-    const bool go_on =
-        observer({count,
-                  cfl,
-                  orders(),
-                  report,
-                  {count, cfl, first, previous, lowest, lowest_at, range.least, range.most, krylov},
-                  jacobian_is_due() && rescue == 0});
+    const bool go_on = observer({count,
+                                 cfl,
+                                 orders(),
+                                 report,
+                                 {count, cfl, first, previous, lowest, lowest_at, begun_residual, begun_at,
+                                  rejections, range.least, range.most, krylov},
+                                 jacobian_is_due() && rescue == 0});
     if (is_steady()) return ended(RunStatus::converged);
     if (!go_on) return ended(RunStatus::interrupted);
     if (has_stalled()) break;

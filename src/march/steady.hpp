@@ -22,6 +22,9 @@ struct SteadyState {
   Real first_residual = 0, previous_residual = 0;
   Real lowest_residual = 0;  ///< so far; smaller steps than a half are passed over
   int lowest_at = 0;         ///< the iteration that reached it
+  Real begun_residual = 0;   ///< where the latest iterations of second order began
+  int begun_at = 0;          ///< and the iteration
+  int rejections = 0;        ///< steps taken back so far
   Load least, most;          ///< total load since then, component by component
   KrylovSteps krylov = KrylovSteps::not_yet;
 };

@@ -11,6 +11,11 @@ struct FlightCondition {
   ReferenceSettings reference;
   FreestreamSettings freestream;
   MotionSettings motion;
+
+  /// 2 V / length: a reduced rate in radians per unit of time; the speed of sound is 1.
+  Real unit_rate() const { return 2 * freestream.mach / reference.length; }
+  /// Of the free stream.
+  Real dynamic_pressure() const { return 0.5 * freestream.mach * freestream.mach; }
 };
 
 }  // namespace alphadot

@@ -111,6 +111,11 @@ constexpr int warm_up = 40;
 constexpr int jacobian_age = 10;
 constexpr Real block_cfl = 1e4, matrix_free_cfl = 50;
 
+int pairs_of(const Case& settings) {
+  return settings.steady.sweeps > 0 ? settings.steady.sweeps
+                                    : pass_pairs(pass_order(wind_of(settings.freestream).x), true);
+}
+
 class Bench {
  public:
   Bench(const Case& settings, const Communicator& comm)
@@ -225,7 +230,7 @@ class Bench {
         std::vector<Primitive<Real>>(static_cast<std::size_t>(domain_.owned_cells)));
     std::vector<LinearSystem> systems;
     for (auto& update : updates) systems.push_back({iteration_.residual_values(), update});
-    const Real passes = 2 * settings_.steady.sweeps;
+    const Real passes = 2 * pairs_of(settings_);
     const Real time = seconds(10, [&] { iteration_.linear_solver().solve(systems); }) / passes;
     return kernel(count == 1 ? "sweep" : fmt::format("sweep of {}", count), time,
                   sweep_bytes(domain_, count, passes), sweep_flops(domain_, count, passes));

@@ -91,6 +91,8 @@ TEST(PassOrder, GoesWithFlowThatIsSupersonicAlongX) {
   EXPECT_EQ(pass_order(0.8), PassOrder::alternating);
   EXPECT_EQ(pass_order(2.5), PassOrder::downstream);
   EXPECT_EQ(pass_order(-2.5), PassOrder::alternating);
+  EXPECT_GT(pass_pairs(PassOrder::alternating, true), pass_pairs(PassOrder::downstream, true));
+  EXPECT_EQ(pass_pairs(PassOrder::alternating, false), pass_pairs(PassOrder::downstream, false));
 }
 
 /// The same passes in double precision over blocks that are differences of whole residuals: rows are relaxed
