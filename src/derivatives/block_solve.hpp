@@ -264,12 +264,14 @@ class BlockSolve {
     } else {
       const std::size_t half = reals.size() / 2;
       std::vector<Scalar> out;
+      out.reserve(half);
       for (std::size_t i = 0; i < half; ++i) out.emplace_back(reals[i], reals[half + i]);
       return out;
     }
   }
   static std::vector<Real> reals_of(const std::vector<Scalar>& scalars) {
     std::vector<Real> out;
+    out.reserve(parts * scalars.size());
     for (const Scalar scalar : scalars) out.push_back(std::real(scalar));
     if constexpr (parts == 2)
       for (const Scalar scalar : scalars) out.push_back(std::imag(scalar));

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <ranges>
 #include <type_traits>
 #include <utility>
 
@@ -82,8 +81,9 @@ void add_scaled(const Stretch<Real, 2>& to, std::complex<Real> factor,
 }
 
 std::vector<float> scaled(Real factor, std::span<const Real> vector) {
-  const auto numbers = std::views::transform(vector, [&](Real n) { return static_cast<float>(factor * n); });
-  return {numbers.begin(), numbers.end()};
+  std::vector<float> out(vector.size());
+  std::ranges::transform(vector, out.begin(), [&](Real n) { return static_cast<float>(factor * n); });
+  return out;
 }
 
 /// What is left of a square when a vector loses its parts along orthonormal ones (Pythagoras).
