@@ -4,6 +4,7 @@
 
 #include "euler/boundary.hpp"
 #include "space/conditions.hpp"
+#include "space/face_geometry.hpp"
 #include "space/reconstruction.hpp"
 
 namespace alphadot {
