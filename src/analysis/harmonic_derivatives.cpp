@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
@@ -58,6 +59,11 @@ HarmonicFit fit_angle(const ForceHistory& history, HarmonicBasis basis) {
   return fit;
 }
 
+/// Over what a term of the third order does: kinks and fifth orders. A plunge of 0.5 degrees and a pitch of 3
+/// degrees of a small cone were up to 1.14 times as far off as the third order says, a plunge of 4 degrees in
+/// Cm_alpha 1.27 times.
+constexpr Real of_higher_orders = 1.2;
+
 }  // namespace
 
 HarmonicDerivatives harmonic_derivatives(const ForceHistory& history, MotionKind motion,
@@ -76,12 +82,14 @@ HarmonicDerivatives harmonic_derivatives(const ForceHistory& history, MotionKind
   const Real k = basis.reduced_frequency, damping = damping_share(k * history.time_step);
   const Real per_angle = 1 / result.amplitude, per_rate = 1 / (k * result.amplitude);
   DerivativeSetOf<Real> fit, inner, time_step, amplitude;
-  const auto add = [&](Variable variable, int c, const FittedAmplitude& part, Real scale, Real third,
-                       Real damped) {
+  const auto add = [&](Variable variable, int c, const FittedAmplitude& part, Real scale, Real share,
+                       Real third, Real damped) {
     result.estimated.derivatives[variable][c].value = scale * part.value;
     fit[variable][c] = std::abs(scale) * std::hypot(part.residual, part.half_cycles);
     inner[variable][c] = std::abs(scale) * part.samples;
-    amplitude[variable][c] = std::abs(scale * third);
+    // What the loads scatter by is no third harmonic.
+    const Real told = std::max(std::abs(third) - part.residual, Real{0});
+    amplitude[variable][c] = of_higher_orders * share * std::abs(scale) * told;
     time_step[variable][c] = damped;
   };
   for (int c = 0; c < Coefficients::size(); ++c) {
@@ -89,8 +97,9 @@ HarmonicDerivatives harmonic_derivatives(const ForceHistory& history, MotionKind
     const auto third = basis.harmonics >= 3 ? found.overtones[1] : std::array<Real, 2>{};
     const Real rate = per_rate * std::abs(found.out_of_phase.value);
     if (meaning.in_phase)
-      add(*meaning.in_phase, c, found.in_phase, per_angle, 3 * third[0], k * damping * rate);
-    add(meaning.out_of_phase, c, found.out_of_phase, meaning.rate_sign * per_rate, third[1], damping * rate);
+      add(*meaning.in_phase, c, found.in_phase, per_angle, 3, third[0], k * damping * rate);
+    add(meaning.out_of_phase, c, found.out_of_phase, meaning.rate_sign * per_rate, 1, third[1],
+        damping * rate);
   }
   result.estimated.add("fit", fit);
   result.estimated.add("inner", inner);

@@ -33,15 +33,17 @@ struct HarmonicDerivatives {
 ///
 /// The plunge by field velocity, the paper's (4), keeps the axial velocity, so that the speed seen by the
 /// body is V cos(a0) / cos(alpha) while the loads stay normalised with the fixed V. X_alpha is therefore the
-/// slope at constant axial velocity (flight mechanics' X_w V): it exceeds the slope at constant speed by
-/// tan(a0) dX/d(ln V), and nothing is renormalised here, for the Mach number's share could not be taken out.
+/// slope at constant axial velocity (flight mechanics' X_w V), and of a flow with incidence the method says
+/// so: it exceeds the slope at constant speed by tan(a0) dX/d(ln V), and nothing is renormalised here, for
+/// the Mach number's share could not be taken out.
 ///
 /// Parts of the uncertainty: "fit" and "inner" are those of FittedAmplitude; "amplitude" is what a finite
-/// amplitude does, from the third harmonic: a term cubic in the angle puts three times its third harmonic
-/// into the first, one of angle^2 rate as much of it; "time_step" is the damping that the march in time
-/// leaves (see fitted_step): k damping_share of the rate derivative in X_angle, and in X_rate
-/// damping_share of itself, an upper limit as long as 2 k X_rate' < X_rate, X_rate' being the next term in
-/// frequency. That the limit k -> 0 is something else is in none of them.
+/// amplitude does, from what the third harmonic has beyond the scatter: a term cubic in the angle puts three
+/// times its third harmonic into the first, one of angle^2 rate as much of it, and a fifth more is for kinks
+/// and higher orders; "time_step" is the damping that the march in time leaves (see fitted_step): k
+/// damping_share of the rate derivative in X_angle, and in X_rate damping_share of itself, an upper limit as
+/// long as 2 k X_rate' < X_rate, X_rate' being the next term in frequency. That the limit k -> 0 is something
+/// else is in none of them.
 ///
 /// basis.phase is ignored (see above). Throws InputError as fit_harmonics does, and when the motion has no
 /// harmonic form or the angle's history is not a sine of this reduced frequency.

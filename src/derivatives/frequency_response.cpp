@@ -157,7 +157,7 @@ FrequencyResponse response_of(Real orders, Real inherited_error, Real imaginary_
     if ((load >= patches && load < 2 * patches) || load == 2 * patches + 1) scales[i] /= imaginary_weight;
   }
   auto remaining = loads_of(remaining_error(record.norms, record.functionals, scales, out.relative_residual,
-                                            orders, inherited_error));
+                                            orders, bends + inherited_error));
   // What is left turns: of a load's parts either may be off by what both are.
   const auto turn_one = [&](Real& real, Real& imaginary) {
     const Real first = real, second = imaginary;

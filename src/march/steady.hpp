@@ -57,15 +57,17 @@ struct SteadyResult {
 /// or the residual has not fallen for as many iterations as led there and 150 more (both status completed),
 /// or the observer returns false (interrupted). The CFL number grows while the residual
 /// behaves; when a state turns unphysical or the residual leaps, the step is taken back, the CFL number cut
-/// and some iterations of first order let the flow settle; after too many such steps the run is diverged. A
+/// and iterations of first order let the flow settle, until their residual has fallen to a hundredth or for
+/// twenty of them; after too many such steps the run is diverged. A
 /// residual of nothing but round-off counts as converged too. The limiter is frozen after so many decades as
 /// its settings say, or where the residual has stopped to fall: at some shocks it never comes to rest.
 ///
-/// Where the scheme alone is slow, as in subsonic flow, and the settings say so, Newton-Krylov steps
-/// follow: exact derivatives of the second-order residual, a CFL number that grows as the residual falls
-/// (switched evolution relaxation, Mulder & van Leer 1985), steps that raise the residual halved. A step
-/// costs as much as 10 to 20 iterations of the scheme, so that flows which the scheme brings to rest by a
-/// decade in 20 iterations see none. Steps that get nowhere are given up for the scheme alone.
+/// Where the scheme alone is slow, or bold steps were taken back twice, and the settings say so,
+/// Newton-Krylov steps follow: exact derivatives of the second-order residual, a CFL number that grows as the
+/// residual falls (switched evolution relaxation, Mulder & van Leer 1985), steps that raise the residual
+/// halved. A step costs as much as 10 to 20 iterations of the scheme, so that flows which the scheme brings
+/// to rest by a decade in 20 iterations, counted from the latest ones of first order, see none. Steps that
+/// get nowhere are given up for the scheme alone.
 ///
 /// Where `early_cfl_max` is not unlimited, as for a flow that bold steps have driven into vacuum, the CFL
 /// number stays below it until the residual has dropped by a decade, and then rises with the residual's fall;

@@ -74,6 +74,26 @@ class Derivatives(ExactCase):
             with self.subTest(name):
                 self.assertLessEqual(abs(step[name]["value"] - linear[name]), step[name]["uncertainty"])
 
+    def test_steps_at_incidence(self) -> None:
+        """Within their +- of what steps of half the size tell of one of no size: what is even in the step goes with it."""
+        for kind, amplitudes, names in (
+            ("step_alpha", (0.5, 0.1, 0.05), ("CA_alpha", "CN_alpha", "Cm_alpha", "CN_alphadot", "Cm_alphadot")),
+            ("step_q", (0.02, 0.005, 0.0025), ("CA_q", "CN_q", "Cm_q")),
+        ):
+            found = {}
+            for amplitude in amplitudes:
+                settings = {"freestream.alpha": 8.0, "motion.kind": f'"{kind}"', "motion.amplitude": amplitude}
+                with tempfile.TemporaryDirectory() as folder:
+                    found[amplitude] = run(Path(folder), "run", "sharp_cone/step.toml", "cone_tiny.msh", settings)["derivatives"]
+            for name in names:
+                truth = 2 * found[amplitudes[2]][name]["value"] - found[amplitudes[1]][name]["value"]
+                for amplitude in amplitudes:
+                    with self.subTest(kind, name=name, amplitude=amplitude):
+                        entry = found[amplitude][name]
+                        self.assertLessEqual(abs(entry["value"] - truth), entry["uncertainty"])
+                        said = "at constant axial velocity" in entry["method"]
+                        self.assertEqual(said, kind == "step_alpha")
+
     def test_zeros_of_symmetry(self) -> None:
         # At no incidence CA is even in alpha, q and alphadot. Limiters have kinks in a flow that is its own mirror image.
         settings = {"freestream.mach": 6.0, "space.flux": "van_leer", "space.limiter": "mlp_u2"}
