@@ -10,7 +10,7 @@ namespace alphadot {
 
 /// The planes about which a steady flow is its own mirror image, as far as the loads of the configuration or
 /// of a part tell: that of x and y, and on a full model that of x and z. What these make zero is nothing but
-/// error where it is computed: where the limiter has a kink in the flow itself, linear solves take one side.
+/// error where it is computed: where limiter or flux has a kink in the flow itself, round-off chooses a side.
 class FlowSymmetry {
  public:
   /// `loads`: in the steady flow. Those that a mirror turns round count as zero below 1e-6 of what a pressure

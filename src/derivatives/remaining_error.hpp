@@ -22,9 +22,7 @@ std::vector<Real> remaining_error(std::span<const Real> norms, std::span<const s
 
 /// What derivatives about a steady flow are never surer than, as a share of their scale: flows bend where
 /// limiter or flux turn from one side to the other. At an incidence 0.002 degrees off, derivatives of small
-/// cones, wedges, wings and finners were different by up to 6e-6; about a flow that is its own mirror image,
-/// where the limiter's neighbours tie and round-off chooses the side, by up to 3e-5 from one number of ranks
-/// to another and from the differences of flows.
+/// cones, wedges, wings and finners were different by up to 6e-6; the rest is margin for what was not tried.
 inline constexpr Real bends = 5e-5;
 
 /// Arm, in sizes of the body, by which forces count among moments where these are small about the centre

@@ -139,8 +139,8 @@ void Linearisation::differentiate_turned(const Reconstruction<Real>& reconstruct
 }
 
 std::size_t Linearisation::bytes() const {
-  return slopes_.size() * sizeof(LimiterSlope) + faces_.size() * sizeof(Face) +
-         boundary_faces_.size() * sizeof(BoundaryFace) + turned_faces_.size() * sizeof(TurnedFace);
+  return slopes_.bytes() + faces_.size() * sizeof(Face) + boundary_faces_.size() * sizeof(BoundaryFace) +
+         turned_faces_.size() * sizeof(TurnedFace);
 }
 
 }  // namespace alphadot

@@ -58,7 +58,7 @@ class Linearisation {
   const std::vector<BoundaryFace>& boundary_faces() const { return boundary_faces_; }
   /// In the order of Discretization::turned_walls().
   const std::vector<TurnedFace>& turned_faces() const { return turned_faces_; }
-  std::span<const LimiterSlope> limiter_slopes() const { return slopes_; }
+  const LimiterSlopes& limiter_slopes() const { return slopes_; }
   std::size_t bytes() const;
 
  private:
@@ -70,7 +70,7 @@ class Linearisation {
   const Communicator& comm_;
   const FlowField<Real>& flow_;
   Conditions<Real> conditions_;
-  std::vector<LimiterSlope> slopes_;
+  LimiterSlopes slopes_;
   std::vector<Face> faces_;
   std::vector<BoundaryFace> boundary_faces_;
   std::vector<TurnedFace> turned_faces_;

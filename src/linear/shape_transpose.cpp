@@ -190,7 +190,7 @@ class ShapeTranspose {
       if (linearisation_.limiter_slopes().empty()) {
         unlimited(cell, reconstruction_[cell], adjoint);
       } else {
-        const LimiterSlope& slope = linearisation_.limiter_slopes()[static_cast<std::size_t>(cell)];
+        const LimiterSlope& slope = linearisation_.limiter_slopes()[cell];
         limiter(cell, slope, adjoint);
         unlimited(cell, slope.gradient, adjoint);
       }

@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "core/dual.hpp"
 #include "space/gradient.hpp"
@@ -21,7 +23,42 @@ struct LimiterSlope {
   Primitive<Real> by_delta, by_bound;
   Primitive<Real> by_density, by_pressure;  ///< of the cell itself, which set what passes the limiter
   std::array<std::uint8_t, 5> corner;
-  std::array<Index, 5> extremum;  ///< the cell whose value gives the bound
+  std::array<Index, 5> extremum;  ///< the cell whose value gives the bound; of several see LimiterSlopes
+};
+
+/// Of every owned cell; none without a limiter. Where several cells give the bound alike, as in a flow that
+/// is its own mirror image, the limiter has a kink, and the bound follows their mean: what central
+/// differences give.
+class LimiterSlopes {
+ public:
+  LimiterSlopes() = default;
+  explicit LimiterSlopes(std::size_t owned_cells) : cells_(owned_cells) {}
+
+  bool empty() const { return cells_.empty(); }
+  LimiterSlope& operator[](Index cell) { return cells_[static_cast<std::size_t>(cell)]; }
+  const LimiterSlope& operator[](Index cell) const { return cells_[static_cast<std::size_t>(cell)]; }
+  auto begin() { return cells_.begin(); }
+  auto end() { return cells_.end(); }
+
+  /// The cells whose values give a bound alike, at least one.
+  std::span<const Index> extrema(const Index& extremum) const {
+    if (extremum >= 0) return {&extremum, 1};
+    const auto place = static_cast<std::size_t>(-1 - extremum);
+    return std::span(tied_).subspan(place + 1, static_cast<std::size_t>(tied_[place]));
+  }
+  /// What stands in a slope for so many cells.
+  Index extremum_of(std::span<const Index> cells) {
+    if (cells.size() == 1) return cells.front();
+    const auto place = static_cast<Index>(tied_.size());
+    tied_.push_back(static_cast<Index>(cells.size()));
+    tied_.insert(tied_.end(), cells.begin(), cells.end());
+    return -1 - place;
+  }
+  std::size_t bytes() const { return cells_.size() * sizeof(LimiterSlope) + tied_.size() * sizeof(Index); }
+
+ private:
+  std::vector<LimiterSlope> cells_;  // [owned_cells] or none
+  std::vector<Index> tied_;          // of each group their count, then the cells
 };
 
 /// The factor phi of a limiter at one corner; arguments as in limiter.hpp.
@@ -94,10 +131,23 @@ Primitive<T> limiter_factors(const Discretization& discretization, std::span<con
   return share * out;
 }
 
-/// Of one cell; with `held` factors, those and no reaction.
+/// Adds to `tied` the cells around a point whose values are next to nothing off an extremum, the cell itself
+/// too, once each.
+inline void add_tied(const Subdomain& domain, Index point, const FlowField<Real>& flow, int variable,
+                     Real extremum, Real change, std::vector<Index>& tied) {
+  constexpr Real next_to_nothing =
+      1e-6;  // of the change that is limited: far above what converged flows lack of symmetry
+  for (const Index other : domain.point_cells[point])
+    if (std::abs(flow[other][variable] - extremum) <= next_to_nothing * change &&
+        std::ranges::find(tied, other) == tied.end())
+      tied.push_back(other);
+}
+
+/// Finds that of one cell; with `held` factors, those and no reaction.
 template <LimiterKind limiter>
-LimiterSlope limiter_slope(const Discretization& discretization, std::span<const PointSums<Real>> points,
-                           Index cell, const FlowField<Real>& flow, const Five<float>* held) {
+void find_limiter_slope(const Discretization& discretization, std::span<const PointSums<Real>> points,
+                        Index cell, const FlowField<Real>& flow, const Five<float>* held,
+                        LimiterSlopes& slopes) {
   const Subdomain& domain = discretization.domain();
   const auto& corners = domain.cell_points[cell];
   const Offsets offsets = offsets_of(domain, cell);
@@ -105,21 +155,25 @@ LimiterSlope limiter_slope(const Discretization& discretization, std::span<const
   Dual<2> density = w[0], pressure = w[4];
   density.d[0] = pressure.d[1] = 1;
   const Five<Dual<2>> epsilon2 = passed_changes(discretization, density, pressure);
-  LimiterSlope out{{{1, 1, 1, 1, 1}},
-                   unlimited_gradient(discretization, points, cell, offsets, w),
-                   {},
-                   {},
-                   {},
-                   {},
-                   {},
-                   {}};
+  LimiterSlope& out = slopes[cell];
+  out = {{{1, 1, 1, 1, 1}},
+         unlimited_gradient(discretization, points, cell, offsets, w),
+         {},
+         {},
+         {},
+         {},
+         {},
+         {}};
   out.extremum.fill(cell);
   if (held) {
     for (int i = 0; i < 5; ++i) out.factor[i] = (*held)[i];
-    return out;
+    return;
   }
+  std::vector<Index> tied;
   for (int i = 0; i < 5; ++i) {
     const auto entry = static_cast<std::size_t>(i);
+    Index bounded_at = corners[0];
+    Real extremum = 0, change = 0;
     for (std::size_t corner = 0; corner < offsets.size(); ++corner) {
       Dual<3> delta = change_at(out.gradient, reach(limiter) * offsets[corner], i);
       const auto extremum_of = [&](Index point) {
@@ -140,10 +194,17 @@ LimiterSlope limiter_slope(const Discretization& discretization, std::span<const
       out.by_density[i] = factor.d[2] * epsilon2[i].d[0];
       out.by_pressure[i] = factor.d[2] * epsilon2[i].d[1];
       out.corner[entry] = static_cast<std::uint8_t>(corner);
-      const Real side = delta.v > 0 ? 1 : -1;
-      out.extremum[entry] = *std::ranges::max_element(domain.point_cells[at], {},
-                                                      [&](Index other) { return side * flow[other][i]; });
+      bounded_at = at;
+      extremum = extremum_of(at);
+      change = std::max(std::abs(bound.v), std::abs(delta.v));
     }
+    if (out.by_bound[i] == 0) continue;
+    tied.clear();
+    add_tied(domain, bounded_at, flow, i, extremum, change, tied);
+    if (!is_at_corners(limiter))
+      for (const Index point : corners)
+        if (point != bounded_at) add_tied(domain, point, flow, i, extremum, change, tied);
+    out.extremum[entry] = slopes.extremum_of(tied);
   }
   Real lowest = 1;
   for (int i = 0; i < 5; ++i) {
@@ -156,17 +217,23 @@ LimiterSlope limiter_slope(const Discretization& discretization, std::span<const
   const Real share = positive_share(lowest);  // held
   for (auto* numbers : {&out.factor, &out.by_delta, &out.by_bound, &out.by_density, &out.by_pressure})
     *numbers = share * *numbers;
-  return out;
 }
 
 /// Makes the change of a gradient one of the limited gradient.
 template <LimiterKind limiter, class T>
-void follow_limiter(const LimiterSlope& slope, Index cell, const FlowField<T>& flow, const Offsets& offsets,
+void follow_limiter(const LimiterSlopes& slopes, Index cell, const FlowField<T>& flow, const Offsets& offsets,
                     Gradient<T>& gradient) {
+  const LimiterSlope& slope = slopes[cell];
   for (int i = 0; i < 5; ++i) {
     const auto entry = static_cast<std::size_t>(i);
     const T delta = change_at(gradient, reach(limiter) * offsets[slope.corner[entry]], i);
-    const T bound = flow[slope.extremum[entry]][i] - flow[cell][i];
+    const auto extrema = slopes.extrema(slope.extremum[entry]);
+    T extremum = flow[extrema.front()][i];
+    if (extrema.size() > 1) {
+      for (const Index other : extrema.subspan(1)) extremum += flow[other][i];
+      extremum = (1.0 / static_cast<Real>(extrema.size())) * extremum;
+    }
+    const T bound = extremum - flow[cell][i];
     const T factor = slope.by_delta[i] * delta + slope.by_bound[i] * bound +
                      slope.by_density[i] * flow[cell][0] + slope.by_pressure[i] * flow[cell][4];
     for (int axis = 0; axis < 3; ++axis)

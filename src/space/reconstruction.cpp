@@ -32,14 +32,15 @@ void Reconstruction<T>::fit(const FlowField<T>& flow, Index point_begin, Index p
 }
 
 template <class T>
-std::vector<LimiterSlope> Reconstruction<T>::limiter_slopes(
+LimiterSlopes Reconstruction<T>::limiter_slopes(
     const FlowField<T>& flow) const requires std::is_same_v<T, Real> {
   const auto slopes = [&]<LimiterKind limiter>() {
-    std::vector<LimiterSlope> out(static_cast<std::size_t>(discretization_.domain().owned_cells));
+    const Index owned = discretization_.domain().owned_cells;
+    LimiterSlopes out(static_cast<std::size_t>(owned));
     if constexpr (!is_change<T>)  // Clang before 16 also instantiates what the constraint excludes
-      for (std::size_t cell = 0; cell < out.size(); ++cell)
-        out[cell] = limiter_slope<limiter>(discretization_, points_, static_cast<Index>(cell), flow,
-                                           frozen_ ? &factors_[cell] : nullptr);
+      for (Index cell = 0; cell < owned; ++cell)
+        find_limiter_slope<limiter>(discretization_, points_, cell, flow, frozen_ ? &factors_[cell] : nullptr,
+                                    out);
     return out;
   };
   switch (discretization_.space().limiter) {
@@ -67,8 +68,7 @@ template <LimiterKind limiter>
     const Offsets offsets = offsets_of(domain, cell);
     Gradient<T> gradient = unlimited_gradient<T>(discretization_, points_, cell, offsets, w);
     if constexpr (is_change<T>) {
-      if (!slopes_.empty())
-        follow_limiter<limiter>(slopes_[static_cast<std::size_t>(cell)], cell, flow, offsets, gradient);
+      if (slopes_ && !slopes_->empty()) follow_limiter<limiter>(*slopes_, cell, flow, offsets, gradient);
     } else if constexpr (limiter != LimiterKind::none) {
       Primitive<T> factor;
       if (frozen_) {

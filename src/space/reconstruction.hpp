@@ -55,10 +55,10 @@ class Reconstruction {
 
   /// Of every owned cell, at the flow of the latest update (T = Real); none without a limiter. About what a
   /// few updates cost.
-  std::vector<LimiterSlope> limiter_slopes(const FlowField<T>& flow) const requires std::is_same_v<T, Real>;
+  LimiterSlopes limiter_slopes(const FlowField<T>& flow) const requires std::is_same_v<T, Real>;
   /// T = Changes: the slopes of the flow that changes, which must outlive the use; without any, gradients are
   /// not limited.
-  void follow(std::span<const LimiterSlope> slopes) { slopes_ = slopes; }
+  void follow(const LimiterSlopes& slopes) { slopes_ = &slopes; }
 
   const Gradient<T>& operator[](Index cell) const { return gradients_[cell]; }
   std::size_t bytes() const;
@@ -76,7 +76,7 @@ class Reconstruction {
   std::vector<Five<float>> factors_;  // [owned_cells] of the limiter, when the case may freeze it
   bool frozen_ = false;
   Index positivity_cells_ = 0;
-  std::span<const LimiterSlope> slopes_;  // [owned_cells] or none
+  const LimiterSlopes* slopes_ = nullptr;
 };
 
 /// States that the cells of a face carry to it, and the positivity scaling that they share (0 at order 1).

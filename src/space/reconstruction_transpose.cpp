@@ -16,7 +16,7 @@ constexpr Index points_ahead = 2;  // that the memory is asked for
 
 template <int N>
 ReconstructionTranspose<N>::ReconstructionTranspose(const Discretization& discretization,
-                                                    std::span<const LimiterSlope> slopes)
+                                                    const LimiterSlopes& slopes)
     : discretization_(discretization),
       slopes_(slopes),
       gradients_(static_cast<std::size_t>(discretization.domain().owned_cells)) {}
@@ -36,10 +36,10 @@ void ReconstructionTranspose<N>::fit_cells(Index begin, Index end, States states
 }
 
 /// The way there: out = phi g + g0 (by_delta delta + by_bound bound + by_density rho + by_pressure p), with
-/// delta = offset . g and bound the difference of the extremum and the cell.
+/// delta = offset . g and bound the difference of the extremum, or the mean of several, and the cell.
 template <int N>
 void ReconstructionTranspose<N>::follow_limiter(Index cell, States states) {
-  const LimiterSlope& slope = slopes_[static_cast<std::size_t>(cell)];
+  const LimiterSlope& slope = slopes_[cell];
   const Real reached = reach(discretization_.space().limiter);
   Gradient<Changes<N>>& gradient = (*this)[cell];
   Primitive<Changes<N>>& state = states[static_cast<std::size_t>(cell)];
@@ -53,7 +53,9 @@ void ReconstructionTranspose<N>::follow_limiter(Index cell, States states) {
       gradient.along[axis][i] =
           slope.factor[i] * gradient.along[axis][i] + (slope.by_delta[i] * to_look[axis]) * factor;
     const Changes<N> bound = slope.by_bound[i] * factor;
-    states[static_cast<std::size_t>(slope.extremum[entry])][i] += bound;
+    const auto extrema = slopes_.extrema(slope.extremum[entry]);
+    const Changes<N> to_each = (1.0 / static_cast<Real>(extrema.size())) * bound;
+    for (const Index other : extrema) states[static_cast<std::size_t>(other)][i] += to_each;
     state[i] -= bound;
     state[0] += slope.by_density[i] * factor;
     state[4] += slope.by_pressure[i] * factor;

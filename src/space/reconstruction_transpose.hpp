@@ -16,7 +16,7 @@ template <int N>
 class ReconstructionTranspose {
  public:
   /// The slopes are those of the limiter that the flow follows, or none; they must outlive this.
-  ReconstructionTranspose(const Discretization& discretization, std::span<const LimiterSlope> slopes);
+  ReconstructionTranspose(const Discretization& discretization, const LimiterSlopes& slopes);
 
   /// Adjoints of the states of all local cells, [total_cells].
   using States = std::span<Primitive<Changes<N>>>;
@@ -39,7 +39,7 @@ class ReconstructionTranspose {
   void scatter_value(Index point, States states) const;
 
   const Discretization& discretization_;
-  std::span<const LimiterSlope> slopes_;
+  const LimiterSlopes& slopes_;
   /// [owned_cells] adjoints of limited gradients; after fit_cells(), of what points give to the fit: the
   /// right-hand side of least squares, or the gradient by Green and Gauss.
   std::vector<Gradient<Changes<N>>> gradients_;
