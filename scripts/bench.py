@@ -49,11 +49,11 @@ def kernels(mesh: Path) -> dict:
     return json.loads(done.stdout)
 
 
-def run(verb: str, case: Path, *settings: str, ranks: int = 1) -> dict:
+def run(verb: str, case: Path, *settings: str, ranks: int = 1, options: tuple[str, ...] = ()) -> dict:
     """The result of one run of the program."""
     with tempfile.TemporaryDirectory() as folder:
         overrides = [word for setting in (*settings, "output.flow=false", "output.surface=false") for word in ("--set", setting)]
-        command = ["mpirun", "-n", str(ranks), BUILD / "alphadot", verb, case, "--out", folder, "--quiet", *overrides]
+        command = ["mpirun", "-n", str(ranks), BUILD / "alphadot", verb, case, *options, "--out", folder, "--quiet", *overrides]
         done = subprocess.run(command, capture_output=True, text=True, env=ENVIRONMENT)
         if done.returncode:
             sys.exit(f"bench.py: {done.stderr}")
@@ -79,9 +79,25 @@ def steady(ranks: int, repetitions: int) -> dict:
 
 
 def linear_solves(repetitions: int) -> dict:
-    """The linear solves for alpha, q and alphadot after a steady state of so many orders; least processor seconds of both."""
-    runs = [run("derivatives", CASE, f"steady.orders={ORDERS}")["performance"] for _ in range(repetitions)]
-    return {name: min(entry[name] for entry in runs) for name in ("linear_cpu_s", "steady_cpu_s")}
+    """The linear solves for alpha, q and alphadot after a steady state of so many orders, and the adjoints of CA, CN and Cm, both to as
+    many; least processor seconds, and peak bytes a cell of each verb."""
+    out: dict[str, float] = {}
+    for _ in range(repetitions):
+        forward = run("derivatives", CASE, f"steady.orders={ORDERS}")["performance"]
+        deep, adjoint = (
+            run(verb, CASE, f"steady.orders={ORDERS}", f"derivatives.orders={ORDERS}", options=options)["performance"]
+            for verb, options in (("derivatives", ()), ("adjoint", ("--of", "CA,CN,Cm")))
+        )
+        found = {
+            "linear_cpu_s": forward["linear_cpu_s"],
+            "steady_cpu_s": forward["steady_cpu_s"],
+            "deep_linear_cpu_s": deep["linear_cpu_s"],
+            "adjoint_cpu_s": adjoint["linear_cpu_s"],
+            "deep_peak_bytes_per_cell": deep["peak_bytes_per_cell"],
+            "adjoint_peak_bytes_per_cell": adjoint["peak_bytes_per_cell"],
+        }
+        out = {name: min(value, out.get(name, value)) for name, value in found.items()}
+    return out
 
 
 def motions(mesh: Path) -> dict:
@@ -134,6 +150,10 @@ def main() -> None:
         figure("memory, block LU-SGS", "bytes/cell", block["held_bytes_per_cell"], at_most=1400),
         figure("two ranks over one, six orders", "ratio of wall times", one["wall_s"] / two["wall_s"], at_least=1.85),
         figure("alpha, q, alphadot over six orders", "ratio of s of a core", linear["linear_cpu_s"] / linear["steady_cpu_s"], at_most=1.3),
+        figure("adjoints of CA, CN, Cm over alpha, q, alphadot", "ratio of s of a core",
+               linear["adjoint_cpu_s"] / linear["deep_linear_cpu_s"], at_most=1.3),
+        figure("the same, memory", "ratio of peak bytes a cell",
+               linear["adjoint_peak_bytes_per_cell"] / linear["deep_peak_bytes_per_cell"], at_most=1.3),
     ]
     in_time = {}
     if arguments.motions:
