@@ -59,10 +59,14 @@ HarmonicFit fit_angle(const ForceHistory& history, HarmonicBasis basis) {
   return fit;
 }
 
-/// Over what a term of the third order does: kinks and fifth orders. A plunge of 0.5 degrees and a pitch of 3
-/// degrees of a small cone were up to 1.14 times as far off as the third order says, a plunge of 4 degrees in
-/// Cm_alpha 1.27 times.
-constexpr Real of_higher_orders = 1.2;
+/// What a first harmonic has of a kink, times its third. A load that goes as angle |angle| has five, one that
+/// goes as rate |angle| five thirds; a kink elsewhere than at the mean may have more. A term of angle^3 has
+/// three, one of rate angle^2 one.
+constexpr Real of_kink = 6;
+constexpr Real of_kink_in_rate = 2;
+/// Of the largest amplitude part in a column, in all loads: terms of several kinds may cancel in a third
+/// harmonic, not in the first. A pitch of 1 degree of a small cone had 3 % of CN's in Cm.
+constexpr Real shared = 0.05;
 
 }  // namespace
 
@@ -87,9 +91,7 @@ HarmonicDerivatives harmonic_derivatives(const ForceHistory& history, MotionKind
     result.estimated.derivatives[variable][c].value = scale * part.value;
     fit[variable][c] = std::abs(scale) * std::hypot(part.residual, part.half_cycles);
     inner[variable][c] = std::abs(scale) * part.samples;
-    // What the loads scatter by is no third harmonic.
-    const Real told = std::max(std::abs(third) - part.residual, Real{0});
-    amplitude[variable][c] = of_higher_orders * share * std::abs(scale) * told;
+    amplitude[variable][c] = share * std::abs(scale * third);
     time_step[variable][c] = damped;
   };
   for (int c = 0; c < Coefficients::size(); ++c) {
@@ -97,9 +99,14 @@ HarmonicDerivatives harmonic_derivatives(const ForceHistory& history, MotionKind
     const auto third = basis.harmonics >= 3 ? found.overtones[1] : std::array<Real, 2>{};
     const Real rate = per_rate * std::abs(found.out_of_phase.value);
     if (meaning.in_phase)
-      add(*meaning.in_phase, c, found.in_phase, per_angle, 3, third[0], k * damping * rate);
-    add(meaning.out_of_phase, c, found.out_of_phase, meaning.rate_sign * per_rate, 1, third[1],
+      add(*meaning.in_phase, c, found.in_phase, per_angle, of_kink, third[0], k * damping * rate);
+    add(meaning.out_of_phase, c, found.out_of_phase, meaning.rate_sign * per_rate, of_kink_in_rate, third[1],
         damping * rate);
+  }
+  for (auto& [variable, column] : amplitude) {
+    Real largest = 0;
+    for (int c = 0; c < column.size(); ++c) largest = std::max(largest, column[c]);
+    for (int c = 0; c < column.size(); ++c) column[c] = std::max(column[c], shared * largest);
   }
   result.estimated.add("fit", fit);
   result.estimated.add("inner", inner);

@@ -38,12 +38,12 @@ struct HarmonicDerivatives {
 /// the Mach number's share could not be taken out.
 ///
 /// Parts of the uncertainty: "fit" and "inner" are those of FittedAmplitude; "amplitude" is what a finite
-/// amplitude does, from what the third harmonic has beyond the scatter: a term cubic in the angle puts three
-/// times its third harmonic into the first, one of angle^2 rate as much of it, and a fifth more is for kinks
-/// and higher orders; "time_step" is the damping that the march in time leaves (see fitted_step): k
-/// damping_share of the rate derivative in X_angle, and in X_rate damping_share of itself, an upper limit as
-/// long as 2 k X_rate' < X_rate, X_rate' being the next term in frequency. That the limit k -> 0 is something
-/// else is in none of them.
+/// amplitude does, from the third harmonic: a term cubic in the angle puts three
+/// times its third harmonic into the first, a kink, angle |angle|, five times; six is taken. One of angle^2
+/// rate puts as much of it, one of |angle| rate five thirds; twice is taken. "time_step" is the damping that
+/// the march in time leaves (see fitted_step): k damping_share of the rate derivative in X_angle, and in
+/// X_rate damping_share of itself, an upper limit as long as 2 k X_rate' < X_rate, X_rate' being the next
+/// term in frequency. That the limit k -> 0 is something else is in none of them.
 ///
 /// basis.phase is ignored (see above). Throws InputError as fit_harmonics does, and when the motion has no
 /// harmonic form or the angle's history is not a sine of this reduced frequency.

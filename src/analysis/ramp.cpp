@@ -30,6 +30,17 @@ LeastSquares fit_line(const VectorXd& x, const VectorXd& y) {
   return least_squares(basis, y, VectorXd::Ones(x.size()));
 }
 
+/// By how much more of a term c x^2 a line over a window takes into its slope and its intercept than the
+/// lines of the window's halves differ, at least once. With m the middle of the window and h its length the
+/// line is 2 m c x - (m^2 - h^2 / 12) c, and those of the halves differ by h c and h m c. A little is for
+/// kinks.
+std::array<Real, 2> curvature_shares(const VectorXd& x) {
+  const Real m = std::abs(x(0) + x(x.size() - 1)) / 2, h = std::abs(x(x.size() - 1) - x(0));
+  constexpr Real of_kinks = 1.15;
+  return {of_kinks * std::max(2 * m / h, Real{1}),
+          of_kinks * std::max((m * m - h * h / 12) / (h * m), Real{1})};
+}
+
 /// Slope and intercept of y against x, x in units of its range: values, uncertainties of the fit, and worst
 /// cases of the bounds.
 struct Line {
@@ -42,11 +53,12 @@ Line line_with_uncertainty(const VectorXd& x, const VectorXd& y, const VectorXd&
   const VectorXd change =
       fit_line(x.tail(half), y.tail(half)).parameters - fit_line(x.head(half), y.head(half)).parameters;
   const VectorXd random = whole.uncertainty(), worst = whole.worst_case(bounds);
+  const auto shares = curvature_shares(x);
   Line out;
   for (int i = 0; i < 2; ++i) {
     const auto n = static_cast<std::size_t>(i);
     out.value[n] = whole.parameters(i);
-    out.fit[n] = std::hypot(random(i), change(i));
+    out.fit[n] = std::hypot(random(i), shares[n] * change(i));
     out.inner[n] = worst(i);
   }
   return out;

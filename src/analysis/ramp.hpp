@@ -11,10 +11,10 @@ namespace alphadot {
 /// so that the slope against alpha is X_alpha and the intercept X_alphadot times the constant rate. `initial`
 /// and `initial_angle` (rad) belong to the steady state before; samples from t* = `transient` on are used: a
 /// start passes a body of length L in about 2 L / l * M / (M - 1). Uncertainty: 95 % of the fit, in
-/// quadrature with the difference of the two halves of the window (which shows a start not yet over, or
-/// curvature), the part "fit"; plus the worst case of the history's bounds, the part "inner". Backward
-/// differences of second order are exact along a ramp. Throws InputError when fewer than
-/// least_ramp_samples remain or the rate is not constant (to 1e-6 of the rise) on them.
+/// quadrature with what the difference of the two halves of the window tells of a start not yet over, or of a
+/// term that goes as the square of the angle, the part "fit"; plus the worst case of the history's bounds,
+/// the part "inner". Backward differences of second order are exact along a ramp. Throws InputError when
+/// fewer than least_ramp_samples remain or the rate is not constant (to 1e-6 of the rise) on them.
 EstimatedDerivatives ramp_derivatives(const ForceHistory& history, const Coefficients& initial,
                                       Real initial_angle, Real transient);
 

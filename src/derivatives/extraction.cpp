@@ -10,6 +10,7 @@
 #include "analysis/ramp.hpp"
 #include "core/error.hpp"
 #include "core/fit_needs.hpp"
+#include "derivatives/remaining_error.hpp"
 #include "motion/motion.hpp"
 
 namespace alphadot {
@@ -68,19 +69,37 @@ Real incidence_before(const History& history) {
   return std::hypot(history.column("alpha").front(), history.column("beta").front());
 }
 
+Real largest_of(const CoefficientsOf<Estimate>& column) {
+  Real largest = 0;
+  for (int i = 0; i < column.size(); ++i) largest = std::max(largest, std::abs(column[i].value));
+  return largest;
+}
+
+/// Motions that are too small for terms of higher order still meet the bends of a discrete flow. Over a ramp
+/// of `duration`, in t*, those by the angle count by the rate too.
+void add_bends(EstimatedDerivatives& estimated, Real duration = 0) {
+  DerivativeSetOf<Real> out;
+  for (const auto& [variable, column] : estimated.derivatives) {
+    Real largest = largest_of(column);
+    if (variable == Variable::alphadot && duration > 0)
+      largest += duration * largest_of(estimated.at(Variable::alpha));
+    for (int i = 0; i < column.size(); ++i) out[variable][i] = bends * largest;
+  }
+  estimated.add("bends", std::move(out));
+}
+
 /// What a finite angle does to derivatives from a single step or ramp, which cannot tell it from the rest: a
 /// bound by experience, in the largest load of a column. A load that is odd in the angle, as x + c x^3, has
 /// the slope c (3 x a + a^2) off between x and x + a, x being the `incidence` of the flow before; 15 a (x +
-/// a) holds it. CA is even, and a itself is added. Steps of up to 5 degrees of a wedge at Mach 2 and of a
+/// a) holds it. CA is even, and 2 a is added. Steps of up to 5 degrees of a wedge at Mach 2 and of a
 /// cone at Mach 1.58 and 2.5 reach three quarters of this without incidence, the cone's half of it at 4 and 8
 /// degrees.
 void add_amplitude(EstimatedDerivatives& estimated, Real angle, Real incidence) {
-  constexpr Real of_odd = 15, of_even = 1;
+  constexpr Real of_odd = 15, of_even = 2;
   const Real a = std::abs(angle), share = of_odd * a * (incidence + a);
   DerivativeSetOf<Real> out;
   for (const auto& [variable, column] : estimated.derivatives) {
-    Real largest = 0;
-    for (int i = 0; i < column.size(); ++i) largest = std::max(largest, std::abs(column[i].value));
+    const Real largest = largest_of(column);
     for (int i = 0; i < column.size(); ++i) out[variable][i] = share * largest;
     out[variable].CA += of_even * a * largest;
   }
@@ -105,7 +124,9 @@ constexpr Real least_discarded = 0.1;
 Extraction harmonic_extraction(const History& history, const HarmonicBasis& basis) {
   const auto& motion = history.info.motion;
   const bool is_carried = motion.kind == MotionKind::plunge || motion.kind == MotionKind::sway;
-  return {harmonic_derivatives(force_history(history, 0), motion.kind, basis).estimated,
+  auto estimated = harmonic_derivatives(force_history(history, 0), motion.kind, basis).estimated;
+  add_bends(estimated);
+  return {std::move(estimated),
           fmt::format("harmonic fit, {}, k = {}{}", word_of(motion.kind), motion.reduced_frequency,
                       is_carried ? at_incidence(history) : "")};
 }
@@ -125,6 +146,7 @@ Extraction extract_derivatives(const History& history) {
       auto estimated = step_derivatives(force_history(history, 1), motion.kind, before, angle);
       add_amplitude(estimated, angle,
                     std::max(incidence_before(history), incidence_of_loads(before, estimated)));
+      add_bends(estimated);
       return {std::move(estimated),
               fmt::format("step of {} degrees in alpha{}", motion.amplitude, at_incidence(history))};
     }
@@ -132,6 +154,7 @@ Extraction extract_derivatives(const History& history) {
       auto estimated =
           step_derivatives(force_history(history, 1), motion.kind, initial_loads(history), motion.amplitude);
       add_amplitude(estimated, motion.amplitude, incidence_before(history));
+      add_bends(estimated);
       return {std::move(estimated), fmt::format("step of {} in q", motion.amplitude)};
     }
     case MotionKind::ramp_alpha: {
@@ -140,6 +163,7 @@ Extraction extract_derivatives(const History& history) {
                                         ramp_transient * history.column("t_star").back());
       add_amplitude(estimated, motion.amplitude * radians_per_degree,
                     std::max(incidence_before(history), incidence_of_loads(before, estimated)));
+      add_bends(estimated, history.column("t_star").back());
       return {std::move(estimated),
               fmt::format("ramp of {} degrees in alpha{}", motion.amplitude, at_incidence(history))};
     }
@@ -160,6 +184,7 @@ Extraction extract_from_flight(const History& history, const BodySettings& body)
   out.decay = fit_decay(time, history.column(pitches ? "alpha" : "beta"), time[1] - time[0]);
   if (pitches && body.free.size() == 1) {
     out.estimated = free_pitch_derivatives(force_history(history, 0), history.column("q"), *out.decay);
+    add_bends(out.estimated);
     out.method = fmt::format("free pitch, k = {:.4g}", out.decay->frequency.value);
   }
   return out;

@@ -67,7 +67,7 @@ class Commands(unittest.TestCase):
             entry = result["derivatives"][name]
             self.assertEqual(entry.keys(), {"value", "uncertainty", "method", "converged", "parts"})
             self.assertIs(entry["converged"], True)
-            self.assertEqual(entry["parts"].keys(), {"fit", "inner", "time_step", "amplitude"})
+            self.assertEqual(entry["parts"].keys(), {"fit", "inner", "time_step", "amplitude", "bends"})
             self.assertAlmostEqual(sum(entry["parts"].values()), entry["uncertainty"], delta=1e-12)
         self.assertEqual(result["uncertainty"], "solver only; mesh not assessed")
         self.assertEqual(result["not_reached"], [])

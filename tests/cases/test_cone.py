@@ -74,25 +74,31 @@ class Derivatives(ExactCase):
             with self.subTest(name):
                 self.assertLessEqual(abs(step[name]["value"] - linear[name]), step[name]["uncertainty"])
 
-    def test_steps_at_incidence(self) -> None:
-        """Within their +- of what steps of half the size tell of one of no size: what is even in the step goes with it."""
-        for kind, amplitudes, names in (
-            ("step_alpha", (0.5, 0.1, 0.05), ("CA_alpha", "CN_alpha", "Cm_alpha", "CN_alphadot", "Cm_alphadot")),
-            ("step_q", (0.02, 0.005, 0.0025), ("CA_q", "CN_q", "Cm_q")),
+    def test_motions_of_any_amplitude(self) -> None:
+        """Within their +- of what motions of next to no size tell: what is even in a step or ramp goes with it, the rest with its square."""
+        alpha, rates = ("CA_alpha", "CN_alpha", "Cm_alpha"), ("CN_alphadot", "Cm_alphadot")
+        harmonic = {"motion.reduced_frequency": 0.05, "unsteady.cycles": 1.5, "unsteady.steps_per_cycle": 48}
+        for kind, incidence, mach, amplitudes, names, more in (
+            ("step_alpha", 8.0, 2.5, (0.05, 0.1, 0.5), alpha + rates, {}),
+            ("step_q", 8.0, 2.5, (0.0025, 0.005, 0.02), ("CA_q", "CN_q", "Cm_q"), {}),
+            ("ramp_alpha", 5.0, 4.0, (0.05, 0.1, 1.0), alpha + rates, {"unsteady.duration": 8.0}),
+            ("pitch", 5.0, 4.0, (0.1, 1.0), alpha, harmonic),
         ):
             found = {}
             for amplitude in amplitudes:
-                settings = {"freestream.alpha": 8.0, "motion.kind": f'"{kind}"', "motion.amplitude": amplitude}
+                settings = {"freestream.mach": mach, "freestream.alpha": incidence, "motion.kind": f'"{kind}"',
+                            "motion.amplitude": amplitude, **more}  # fmt: skip
                 with tempfile.TemporaryDirectory() as folder:
                     found[amplitude] = run(Path(folder), "run", "sharp_cone/step.toml", "cone_tiny.msh", settings)["derivatives"]
             for name in names:
-                truth = 2 * found[amplitudes[2]][name]["value"] - found[amplitudes[1]][name]["value"]
-                for amplitude in amplitudes:
+                values = [found[amplitude][name]["value"] for amplitude in amplitudes]
+                truth = values[0] if kind == "pitch" else 2 * values[0] - values[1]
+                for amplitude in amplitudes[1:]:
                     with self.subTest(kind, name=name, amplitude=amplitude):
                         entry = found[amplitude][name]
                         self.assertLessEqual(abs(entry["value"] - truth), entry["uncertainty"])
                         said = "at constant axial velocity" in entry["method"]
-                        self.assertEqual(said, kind == "step_alpha")
+                        self.assertEqual(said, kind in ("step_alpha", "ramp_alpha"))
 
     def test_zeros_of_symmetry(self) -> None:
         # At no incidence CA is even in alpha, q and alphadot. Limiters have kinks in a flow that is its own mirror image.
