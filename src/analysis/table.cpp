@@ -74,7 +74,9 @@ Group group_of(int coefficient, Variable variable) {
 }
 
 bool TableRow::is_zero() const {
-  const bool may_be = group == Group::cross || group == Group::controls;
+  const auto is_by_symmetry = [](const auto& part) { return part.first == symmetry_part && part.second > 0; };
+  const bool may_be =
+      group == Group::cross || group == Group::controls || std::ranges::any_of(parts, is_by_symmetry);
   return may_be && std::isfinite(value.uncertainty) && std::abs(value.value) <= value.uncertainty;
 }
 

@@ -17,6 +17,9 @@ namespace alphadot {
 /// controls; `other` is what has no place among these.
 enum class Group { longitudinal, lateral, cross, controls, other };
 
+/// The part of an uncertainty that is there where the symmetry of a flow makes a derivative zero.
+inline constexpr std::string_view symmetry_part = "symmetry";
+
 /// Of a coefficient, in their order, by a variable.
 Group group_of(int coefficient, Variable variable);
 

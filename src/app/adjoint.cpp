@@ -105,6 +105,11 @@ void write_fields(const CaseRun& run, const std::vector<Functional>& functionals
              run.record().origin(), run.communicator());
 }
 
+/// What the place of walls does is not known where they have turned and their mesh has not.
+bool turns_walls(const Case& settings) {
+  return settings.space.deflection == DeflectionKind::transpiration && !settings.deflections.empty();
+}
+
 /// What the place of every point of the walls does to the loads: vectors per area for ParaView, numbers a
 /// point in surface_sensitivity.csv.
 void write_surface_sensitivity(const CaseRun& run, AdjointDerivatives& solver, const Adjoints& adjoints) {
@@ -154,6 +159,8 @@ RunStatus adjoint_verb(const CaseArguments& arguments, const std::vector<std::st
   run.check_not_in_motion();
   auto& record = run.record();
   record.announce();
+  if (settings.output.surface && turns_walls(settings))
+    spdlog::info("no surface_sensitivity: walls are deflected by transpiration, and their mesh is not");
   std::vector<TableRow> rows;
   Real linear_cpu = not_measured;
   const RunStatus status = run.carry_out([&](RunStatus marched) {
@@ -169,7 +176,8 @@ RunStatus adjoint_verb(const CaseArguments& arguments, const std::vector<std::st
       rows = solver->rows(adjoints, shortfalls);
       for (auto& shortfall : shortfalls) record.fall_short(std::move(shortfall));
       if (settings.output.flow) write_fields(run, functionals, adjoints);
-      if (settings.output.surface) write_surface_sensitivity(run, *solver, adjoints);
+      if (settings.output.surface && !turns_walls(settings))
+        write_surface_sensitivity(run, *solver, adjoints);
     }
     solver.reset();  // its matrices are those of the indicator's solver
     if (is_done && !goals.empty()) is_done = write_indicator(run, goals, adjoints, solves.observer());

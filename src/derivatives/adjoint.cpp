@@ -30,10 +30,10 @@ ConditionsChange change_of(std::span<const Real> n) {
   return {{n[0], n[1], n[2]}, {n[3], n[4], n[5]}, {n[6], n[7], n[8]}};
 }
 
-Real dot_product(std::span<const Five<Real>> a, std::span<const Five<Real>> b) {
+Real dot_product(std::span<const Five<Real>> a, const CellChanges& b) {
   Five<Real> sum;
-  for (std::size_t cell = 0; cell < a.size(); ++cell)
-    for (int i = 0; i < 5; ++i) sum[i] += a[cell][i] * b[cell][i];
+  for (const auto& [cell, change] : b)
+    for (int i = 0; i < 5; ++i) sum[i] += a[static_cast<std::size_t>(cell)][i] * change[i];
   return sum[0] + sum[1] + sum[2] + sum[3] + sum[4];
 }
 
@@ -46,8 +46,7 @@ class AdjointOperator {
   static constexpr auto transposed = Transposed::yes;
 
   AdjointOperator(ImplicitIteration& iteration, const Linearisation& linearisation,
-                  std::span<const AdjointProblem> problems,
-                  std::span<const std::span<const Conserved<Real>>> residual_changes)
+                  std::span<const AdjointProblem> problems, std::span<const CellChanges> residual_changes)
       : iteration_(iteration),
         problems_(problems),
         residual_changes_(residual_changes),
@@ -85,7 +84,7 @@ class AdjointOperator {
  private:
   ImplicitIteration& iteration_;
   std::span<const AdjointProblem> problems_;
-  std::span<const std::span<const Conserved<Real>>> residual_changes_;
+  std::span<const CellChanges> residual_changes_;
   std::vector<Real> waves_;  // [owned_cells] sum over the faces of area times wave speed
   TangentTranspose<N> transpose_;
   std::array<std::vector<Real>, N> products_;
@@ -136,6 +135,16 @@ Adjoint adjoint_of(const AdjointProblem& problem, Real orders, Field field, Bloc
 AdjointSolver::AdjointSolver(ImplicitIteration& iteration, const Conditions<Real>& conditions,
                              const DerivativeSettings& settings, std::function<bool()> go_on)
     : basis_(iteration, conditions, settings, std::move(go_on)) {}
+
+void AdjointSolver::follow(std::span<const Conserved<Real>> residual_change) {
+  auto& changes = residual_changes_.emplace_back();
+  for (std::size_t cell = 0; cell < residual_change.size(); ++cell) {
+    const auto& change = residual_change[cell];
+    Real size = 0;
+    for (int i = 0; i < 5; ++i) size += std::abs(change[i]);
+    if (size > 0) changes.emplace_back(static_cast<Index>(cell), change);
+  }
+}
 
 std::vector<Adjoint> AdjointSolver::solve(const std::vector<AdjointProblem>& problems) {
   std::vector<Adjoint> out;

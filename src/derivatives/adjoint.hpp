@@ -41,6 +41,9 @@ struct Adjoint {
   int iterations = 0;
 };
 
+/// A change of the residual, in the cells that it changes something in.
+using CellChanges = std::vector<std::pair<Index, Conserved<Real>>>;
+
 /// Solves adjoint problems about one steady flow, up to three at a time with one transposed operator,
 /// preconditioned by the transpose of the implicit scheme of `iteration`: the twin of SensitivitySolver.
 class AdjointSolver {
@@ -50,11 +53,9 @@ class AdjointSolver {
   AdjointSolver(ImplicitIteration& iteration, const Conditions<Real>& conditions,
                 const DerivativeSettings& settings, std::function<bool()> go_on = {});
 
-  /// From now on products of the adjoints with these changes of the residual are followed as well, each
-  /// [owned_cells]; they must outlive the object.
-  void follow(std::vector<std::span<const Conserved<Real>>> residual_changes) {
-    residual_changes_ = std::move(residual_changes);
-  }
+  /// From now on products of the adjoints with this change of the residual, [owned_cells], are followed as
+  /// well. Cells that it leaves alone cost nothing.
+  void follow(std::span<const Conserved<Real>> residual_change);
 
   /// Nothing when `go_on` said no. Throws DivergedError when a solution leaves the numbers, std::logic_error
   /// when the implicit scheme has no transpose. Collective.
@@ -66,7 +67,7 @@ class AdjointSolver {
 
  private:
   DerivativeBasis basis_;
-  std::vector<std::span<const Conserved<Real>>> residual_changes_;
+  std::vector<CellChanges> residual_changes_;
 };
 
 }  // namespace alphadot

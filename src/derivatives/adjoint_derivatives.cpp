@@ -44,9 +44,6 @@ void check_has_transpose(const Case& settings) {
   if (settings.steady.scheme == SchemeKind::lu_sgs)
     throw InputError(settings.file, 0, "the adjoint needs an implicit scheme that has a transpose",
                      "set steady.scheme = \"block_lu_sgs\"");
-  if (settings.space.deflection == DeflectionKind::transpiration && !settings.deflections.empty())
-    throw InputError(settings.file, 0, "the adjoint knows no walls that are deflected by transpiration",
-                     "set space.deflection = \"mesh\"");
 }
 
 AdjointDerivatives::AdjointDerivatives(FlowCase& flow, std::vector<Functional> functionals,
@@ -61,21 +58,15 @@ AdjointDerivatives::AdjointDerivatives(FlowCase& flow, std::vector<Functional> f
         return out;
       }()),
       controls_(controls_of(flow.settings())),
-      shapes_([&] {
-        std::vector<HeldFlowChange> out;
-        for (const Variable control : controls_) out.push_back(change_by_control(flow, control, false));
-        return out;
-      }()),
       solver_(flow.iteration(), flow.conditions(), flow.settings().derivatives, observer_.go_on) {
-  std::vector<std::span<const Conserved<Real>>> changes;
-  for (const auto& change : stream_) changes.push_back(change.residual());
-  for (const auto& change : shapes_) {
-    changes.emplace_back(change.residual);
+  for (const auto& change : stream_) solver_.follow(change.residual());
+  for (const Variable control : controls_) {
+    const auto change = change_by_control(flow, control, false);
+    solver_.follow(change.residual);
     auto loads = numbers_of(change.loads);
     flow_.communicator().sum(loads);
     control_loads_.push_back(loads_of(loads));
   }
-  solver_.follow(std::move(changes));
 }
 
 bool AdjointDerivatives::solve(Adjoints& adjoints) {

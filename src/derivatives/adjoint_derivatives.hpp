@@ -8,7 +8,6 @@
 #include "analysis/table.hpp"
 #include "derivatives/functional.hpp"
 #include "derivatives/linear_derivatives.hpp"
-#include "derivatives/shape_change.hpp"
 #include "derivatives/stream_change.hpp"
 #include "derivatives/surface_sensitivity.hpp"
 
@@ -51,13 +50,11 @@ class AdjointDerivatives {
   SolveObserver observer_;
   std::vector<StreamChange> stream_;
   std::vector<Variable> controls_;
-  std::vector<HeldFlowChange> shapes_;  // [controls]
-  std::vector<std::vector<Load>>
-      control_loads_;  // [controls][patches] of the flow that is held, over all ranks
+  std::vector<std::vector<Load>> control_loads_;  // [controls][patches] at a held flow, over all ranks
   AdjointSolver solver_;
 };
 
-/// Throws InputError when the implicit scheme of a case has no transpose, or its deflected walls.
+/// Throws InputError when the implicit scheme of a case has no transpose.
 void check_has_transpose(const Case& settings);
 
 }  // namespace alphadot

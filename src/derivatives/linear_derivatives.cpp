@@ -131,7 +131,7 @@ class Estimation {
                                   : of_whole.makes_zero(i, variable) ? std::abs(whole[i].value)
                                                                      : 0;
     }
-    out.add("symmetry", std::move(half_width));
+    out.add(std::string(symmetry_part), std::move(half_width));
   }
 
   /// Of a set of controls the sum.

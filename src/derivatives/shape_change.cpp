@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
+#include <utility>
 
+#include "partition/excerpt.hpp"
 #include "space/face_geometry.hpp"
 
 namespace alphadot {
@@ -12,34 +15,77 @@ namespace {
 /// Times the displacement or the velocity.
 constexpr Real step = 1e-5;
 
-/// A copy of a mesh with its discretization and residual.
+/// The neighbours that the residual of a cell looks at, counted in rings of cells around points: its gradient
+/// is a fit to the cells around its points, and its fluxes use those of its neighbours.
+constexpr int seen_rings = 2;
+
+/// Cells by how far they are from those that are displaced, [total_cells].
+std::vector<std::uint8_t> rings_around_displaced(const Subdomain& domain, std::span<const Vec3> displacement,
+                                                 const Communicator& comm) {
+  std::vector<std::uint8_t> displaced(static_cast<std::size_t>(domain.owned_cells));
+  for (std::size_t cell = 0; cell < displaced.size(); ++cell)
+    displaced[cell] = std::ranges::any_of(domain.cell_points[cell], [&](Index point) {
+      return norm(displacement[static_cast<std::size_t>(point)]) > 0;
+    });
+  if (std::ranges::count(displaced, 0) == domain.owned_cells) displaced[0] = 1;  // every rank has a cell
+  return rings_around(domain, displaced, 2 * seen_rings, comm);
+}
+
+/// A copy of what a displacement changes of a mesh, and of what that rests on, with its discretization, flow
+/// and residual.
 class DisplacedMesh {
  public:
-  DisplacedMesh(ImplicitIteration& iteration, const Conditions<Real>& conditions, bool limiter_held)
-      : iteration_(iteration),
+  DisplacedMesh(ImplicitIteration& iteration, const Conditions<Real>& conditions,
+                std::span<const Vec3> displacement, bool limiter_held)
+      : about_(iteration.discretization()),
+        moment_center_(iteration.moment_center()),
         conditions_(conditions),
-        about_(iteration.discretization()),
-        domain_(about_.domain()),
-        discretization_(domain_, about_.patch_kinds(), space_of(about_.space(), limiter_held),
+        rings_(rings_around_displaced(about_.domain(), displacement, iteration.communicator())),
+        excerpt_(excerpt_of(about_.domain(), kept())),
+        discretization_(excerpt_.domain, about_.patch_kinds(), space_of(about_.space(), limiter_held),
                         about_.gamma()),
-        residual_(discretization_, iteration.communicator()) {
-    discretization_.set_dissipative(about_.dissipative_cells());
+        flow_(excerpt_.domain, iteration.communicator()),
+        residual_(discretization_, iteration.communicator()),
+        values_(static_cast<std::size_t>(excerpt_.domain.owned_cells)) {
+    for (const Index point : excerpt_.points)
+      displacement_.push_back(displacement[static_cast<std::size_t>(point)]);
+    for (std::size_t cell = 0; cell < excerpt_.cells.size(); ++cell)
+      flow_[static_cast<Index>(cell)] = iteration.flow()[excerpt_.cells[cell]];
+    if (!about_.has_dissipative_cells()) return;
+    std::vector<std::uint8_t> dissipative;
+    for (const Index cell : excerpt_.cells)
+      dissipative.push_back(about_.dissipative_cells()[static_cast<std::size_t>(cell)]);
+    discretization_.set_dissipative(std::move(dissipative));
   }
 
-  /// From now on the limiter's factors are those of the latest evaluation.
-  void hold_limiter() { residual_.freeze_limiter(true); }
-  void displace(std::span<const Vec3> displacement, Real share) {
-    for (std::size_t point = 0; point < displacement.size(); ++point)
-      domain_.points[point] = about_.domain().points[point] + share * displacement[point];
-    domain_.update_metrics();
+  /// From now on the limiter's factors are those of the mesh as it is.
+  void hold_limiter() {
+    residual_.evaluate(flow_, conditions_, about_.space().order, values_);
+    residual_.freeze_limiter(true);
+  }
+  /// By so much of the displacement.
+  void displace(Real share) {
+    for (std::size_t point = 0; point < displacement_.size(); ++point)
+      excerpt_.domain.points[point] =
+          about_.domain().points[static_cast<std::size_t>(excerpt_.points[point])] +
+          share * displacement_[point];
+    excerpt_.domain.update_metrics();
     discretization_.update_geometry();
   }
-  void evaluate(std::vector<Conserved<Real>>& values) {
-    residual_.evaluate(iteration_.flow(), conditions_, about_.space().order, values);
-  }
-  std::vector<Load> of_faces() const {
-    return face_loads(discretization_, excess_pressures(discretization_, residual_),
-                      iteration_.moment_center());
+  /// Adds so much of its residual and loads to those of the whole mesh that the displacement changes.
+  void add(Real factor, HeldFlowChange& out) {
+    residual_.evaluate(flow_, conditions_, about_.space().order, values_);
+    const auto loads =
+        face_loads(discretization_, excess_pressures(discretization_, residual_), moment_center_);
+    const auto is_changed = [&](Index cell) { return rings_[static_cast<std::size_t>(cell)] <= seen_rings; };
+    for (std::size_t cell = 0; cell < values_.size(); ++cell)
+      if (const Index of_whole = excerpt_.cells[cell]; is_changed(of_whole))
+        out.residual[static_cast<std::size_t>(of_whole)] += factor * values_[cell];
+    for (std::size_t face = 0; face < loads.size(); ++face) {
+      const auto of_whole = static_cast<std::size_t>(excerpt_.boundary_faces[face]);
+      if (is_changed(about_.domain().boundary_faces[of_whole].cell))
+        out.of_faces[of_whole] += factor * loads[face];
+    }
   }
 
  private:
@@ -48,13 +94,22 @@ class DisplacedMesh {
     if (limiter_held) space.freeze_orders = std::max<Real>(space.freeze_orders, 1);
     return space;
   }
+  std::vector<std::uint8_t> kept() const {
+    std::vector<std::uint8_t> out;
+    for (const auto ring : rings_) out.push_back(ring <= 2 * seen_rings);
+    return out;
+  }
 
-  ImplicitIteration& iteration_;
-  const Conditions<Real>& conditions_;
   const Discretization& about_;
-  Subdomain domain_;
+  Vec3 moment_center_;
+  const Conditions<Real>& conditions_;
+  std::vector<std::uint8_t> rings_;
+  Excerpt excerpt_;
   Discretization discretization_;
+  FlowField<Real> flow_;
   Residual residual_;
+  std::vector<Vec3> displacement_;       // [points] of the excerpt
+  std::vector<Conserved<Real>> values_;  // [owned_cells] of the excerpt
 };
 
 /// (above - below) / (2 step), into above.
@@ -69,6 +124,7 @@ void difference(HeldFlowChange& above, const HeldFlowChange& below) {
 HeldFlowChange empty_change(const Discretization& discretization) {
   HeldFlowChange out;
   out.residual.resize(static_cast<std::size_t>(discretization.domain().owned_cells));
+  out.of_faces.resize(discretization.domain().boundary_faces.size());
   return out;
 }
 
@@ -116,19 +172,13 @@ void evaluate(HeldFlowChange& side, Residual& residual, const Discretization& di
 
 HeldFlowChange change_by_displacement(ImplicitIteration& iteration, const Conditions<Real>& conditions,
                                       std::span<const Vec3> displacement, bool limiter_held) {
-  DisplacedMesh mesh(iteration, conditions, limiter_held);
+  DisplacedMesh mesh(iteration, conditions, displacement, limiter_held);
   auto out = empty_change(iteration.discretization());
-  if (limiter_held) {
-    mesh.evaluate(out.residual);
-    mesh.hold_limiter();
+  if (limiter_held) mesh.hold_limiter();
+  for (const Real share : {-step, step}) {
+    mesh.displace(share);
+    mesh.add(0.5 / share, out);
   }
-  auto below = out;
-  for (auto* side : {&below, &out}) {
-    mesh.displace(displacement, side == &out ? step : -step);
-    mesh.evaluate(side->residual);
-    side->of_faces = mesh.of_faces();
-  }
-  difference(out, below);
   out.loads = patch_loads(iteration.discretization(), out.of_faces);
   return out;
 }

@@ -20,8 +20,8 @@ struct HeldFlowChange {
 /// discrete equations, area vectors, centroids, volumes, gradients and the limiter included. Central
 /// differences of whole residuals on displaced copies of the mesh: the step strains cells by 1e-5, so that
 /// truncation is 1e-10 and round-off about 1e-7 of what a cell's faces change. With `limiter_held` its
-/// factors are those of the mesh that is not displaced. About the flow of `iteration`. Takes the memory of
-/// another mesh meanwhile. Collective.
+/// factors are those of the mesh that is not displaced. About the flow of `iteration`. Takes the work and,
+/// meanwhile, the memory of those cells that the displacement changes something for. Collective.
 HeldFlowChange change_by_displacement(ImplicitIteration& iteration, const Conditions<Real>& conditions,
                                       std::span<const Vec3> displacement, bool limiter_held);
 

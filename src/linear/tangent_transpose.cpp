@@ -7,6 +7,7 @@
 #include "linear/transposed_product.hpp"
 #include "space/face_geometry.hpp"
 #include "space/forces_transpose.hpp"
+#include "space/turned_walls.hpp"
 
 namespace alphadot {
 
@@ -78,18 +79,27 @@ void TangentTranspose<N>::faces(const Adjoints& adjoints, const Weights& weights
     std::ranges::fill(states_, Primitive<Changes<N>>{});
     reconstruction_.clear();
     boundary_faces(weights);
+    turned_faces(weights);
     cells(0, domain.interior_cells);
   });
   cells(domain.interior_cells, domain.owned_cells);
 }
 
 template <int N>
-Changes<N> TangentTranspose<N>::pressure_weights(std::size_t boundary_face, const Weights& weights) const {
+Changes<N> TangentTranspose<N>::pressure_weights(std::size_t boundary_face, const Vec3& area, const Vec3& at,
+                                                 const Weights& weights) const {
   Changes<N> out;
   for (int k = 0; k < N; ++k)
     if (const auto& of_patches = weights[static_cast<std::size_t>(k)]; !of_patches.empty())
-      out.d[k] = pressure_weight(discretization_, boundary_face, of_patches, moment_center_);
+      out.d[k] = pressure_weight(discretization_, boundary_face, area, at, of_patches, moment_center_);
   return out;
+}
+
+template <int N>
+Changes<N> TangentTranspose<N>::pressure_weights(std::size_t boundary_face, const Weights& weights) const {
+  const Subdomain& domain = discretization_.domain();
+  return pressure_weights(boundary_face, domain.boundary_normal[boundary_face],
+                          domain.boundary_center[boundary_face], weights);
 }
 
 template <int N>
@@ -103,6 +113,23 @@ void TangentTranspose<N>::boundary_faces(const Weights& weights) {
     for (int k = 0; k < 5; ++k) inside[k] += derivatives.pressure[k] * pressure;
     add_extrapolated(inside, derivatives.scaling * (domain.boundary_center[i] - domain.center[cell]),
                      states_[static_cast<std::size_t>(cell)], reconstruction_[cell]);
+  }
+}
+
+template <int N>
+void TangentTranspose<N>::turned_faces(const Weights& weights) {
+  const Subdomain& domain = discretization_.domain();
+  auto derivatives = linearisation_.turned_faces().begin();
+  for (const TurnedWall& wall : discretization_.turned_walls()) {
+    const auto i = static_cast<std::size_t>(wall.face);
+    const Index cell = domain.boundary_faces[i].cell;
+    const auto [area, normal, at] = turned_geometry(domain, wall);
+    auto there = transposed_product(derivatives->there, adjoints_[cell]);
+    const Changes<N> pressure = pressure_weights(i, area * normal, at, weights);
+    for (int k = 0; k < 5; ++k) there[k] += derivatives->pressure[k] * pressure;
+    add_extrapolated(there, derivatives->scaling * (at - domain.center[cell]),
+                     states_[static_cast<std::size_t>(cell)], reconstruction_[cell]);
+    ++derivatives;
   }
 }
 
@@ -209,6 +236,15 @@ std::array<ConditionsChange, N> TangentTranspose<N>::conditions(const Weights& w
         boundary_geometry(domain, i));
     for (int axis = 0; axis < 3; ++axis)
       wind[axis] += product(derivatives.wind[static_cast<std::size_t>(axis)], adjoint);
+  }
+  auto derivatives = linearisation_.turned_faces().begin();
+  for (const TurnedWall& wall : discretization_.turned_walls()) {
+    const auto i = static_cast<std::size_t>(wall.face);
+    const auto turned = turned_geometry(domain, wall);
+    const auto& adjoint = adjoints_[domain.boundary_faces[i].cell];
+    const auto pressure = pressure_weights(i, turned.area * turned.normal, turned.center, weights);
+    add_speed(product(derivatives->speed, adjoint) + derivatives->pressure_by_speed * pressure, turned);
+    ++derivatives;
   }
   if (about.turning_source) {
     const TurningSource turning(about);

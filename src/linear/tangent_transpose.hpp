@@ -37,10 +37,13 @@ class TangentTranspose {
  private:
   /// Flux that a face carries from left to right, as the adjoints see it.
   Conserved<Changes<N>> across(const FaceCells& cells) const;
+  Changes<N> pressure_weights(std::size_t boundary_face, const Vec3& area, const Vec3& at,
+                              const Weights& weights) const;
   Changes<N> pressure_weights(std::size_t boundary_face, const Weights& weights) const;
   /// Fluxes and pressures, back to states and limited gradients.
   void faces(const Adjoints& adjoints, const Weights& weights);
   void boundary_faces(const Weights& weights);
+  void turned_faces(const Weights& weights);
   void cells(Index begin, Index end);
   void turn_axes();
 

@@ -154,20 +154,27 @@ Vec3 across(const Symmetric3& a, const Vec3& u) {
 void smooth(const Subdomain& domain, const Communicator& comm, std::span<const std::uint8_t> is_free,
             std::vector<Vec3>& values) {
   constexpr int passes = 20;
+  std::vector<Index> points, cells;
+  std::vector<std::uint8_t> is_beside(static_cast<std::size_t>(domain.total_cells));
+  for (Index point = 0; point < domain.owned_points; ++point) {
+    if (!is_free[static_cast<std::size_t>(point)]) continue;
+    points.push_back(point);
+    for (const Index cell : domain.point_cells[point]) is_beside[static_cast<std::size_t>(cell)] = 1;
+  }
+  for (Index cell = 0; cell < domain.owned_cells; ++cell)
+    if (is_beside[static_cast<std::size_t>(cell)]) cells.push_back(cell);
   CellField<Vec3> means(domain, comm);
   for (int pass = 0; pass < passes; ++pass) {
-    for (Index cell = 0; cell < domain.owned_cells; ++cell) {
+    for (const Index cell : cells) {
       means[cell] = {};
       for (const Index point : domain.cell_points[static_cast<std::size_t>(cell)])
         means[cell] += 0.25 * values[static_cast<std::size_t>(point)];
     }
     means.exchange();
-    for (Index point = 0; point < domain.owned_points; ++point) {
-      const auto at = static_cast<std::size_t>(point);
-      if (!is_free[at]) continue;
+    for (const Index point : points) {
       Vec3 sum;
       for (const Index cell : domain.point_cells[point]) sum += means[cell];
-      values[at] = 1 / static_cast<Real>(domain.point_cells[point].size()) * sum;
+      values[static_cast<std::size_t>(point)] = 1 / static_cast<Real>(domain.point_cells[point].size()) * sum;
     }
   }
 }
@@ -198,7 +205,7 @@ Deflection deflection(const Discretization& discretization, std::span<const std:
     const Real share = is_turning ? 1 : blend(box.distance(x) / reach);
     turned[at] = share * cross(hinge.axis, x - hinge.point);
     kept_back[at] = across(here.fixed, turned[at]);
-    is_free[at] = !is_turning && trace(here.fixed) == 0;
+    is_free[at] = !is_turning && share > 0 && trace(here.fixed) == 0;
     if (!is_turning) continue;
     largest = std::max(largest, norm(turned[at]));
     out.lost_at_walls = std::max(out.lost_at_walls, norm(kept_back[at]));

@@ -128,9 +128,15 @@ class Controls(unittest.TestCase):
             self.assertAlmostEqual(value, self.values()[f"{name}_flap"], delta=0.03 * abs(value), msg=name)
             rate = solved[f"{name}_flapdot"]["value"]
             self.assertAlmostEqual(rate, self.values()[f"{name}_flapdot"], delta=0.1 * abs(rate), msg=name)
-        outcome = run(self.folder, "adjoint", "case.toml", "--out", "none", "--of", "CN", *passing, "--set", "deflections.flap=1")
-        self.assertEqual(outcome.codes, [1] * RANKS)
-        self.assertIn("knows no walls that are deflected by transpiration", outcome.errors[0])
+
+    def test_adjoints_know_walls_turned_by_transpiration(self) -> None:
+        turned = ("--set", "space.deflection=transpiration", "--set", "deflections.flap=2")
+        solved = self.done("derivatives", "turned", *DEEP, *turned)["derivatives"]
+        adjoint = self.done("adjoint", "turned_adjoint", "--of", "CN,Cm", *DEEP, *turned)["derivatives"]
+        for name in ("CN_alpha", "Cm_alpha", "CN_q", "CN_flap", "Cm_flap", "CN_side"):
+            value = solved[name]["value"]
+            self.assertAlmostEqual(adjoint[name]["value"], value, delta=1e-5 * max(abs(value), 0.1), msg=name)
+        self.assertFalse((self.folder / "turned_adjoint" / "surface_sensitivity.csv").exists())
 
     def test_sets_are_sums(self) -> None:
         found = self.values()

@@ -171,6 +171,43 @@ TEST_F(ShapeChangeTest, AUniformStreamFeelsNoMotionOfThePoints) {
   EXPECT_GT(comm.max(at_walls), 1e-4);
 }
 
+// A few points that move change a few cells: all that they change, and on every rank. The expected number is
+// the definition, whole residuals on whole displaced meshes.
+TEST_F(ShapeResponseTest, IsThatOfTheWholeMesh) {
+  std::vector<Vec3> some(points());
+  const Vec3 middle{0.6, 0.0625, 0.2};
+  for (std::size_t point = 0; point < points(); ++point)
+    if (norm(box.domain.points[point] - middle) < 0.2) some[point] = {0.2, 0.1, -0.3};
+  const auto found = change_by_displacement(steady.iteration, conditions, some, false);
+  constexpr Real step = 1e-5;
+  std::vector<std::vector<Conserved<Real>>> sides;
+  std::vector<std::vector<Load>> loads;
+  for (const Real share : {-step, step}) {
+    Subdomain domain = box.domain;
+    for (std::size_t point = 0; point < points(); ++point) domain.points[point] += share * some[point];
+    domain.update_metrics();
+    const Discretization moved(domain, box.discretization.patch_kinds(), space, gamma_air);
+    Residual residual(moved, comm);
+    residual.evaluate(steady.iteration.flow(), conditions, 2, sides.emplace_back(box.cells()));
+    loads.push_back(face_loads(moved, excess_pressures(moved, residual), steady.iteration.moment_center()));
+  }
+  GlobalIndex changed = 0;
+  for (std::size_t cell = 0; cell < box.cells(); ++cell) {
+    changed += norm(Vec3{found.residual[cell][0], found.residual[cell][1], found.residual[cell][4]}) > 0;
+    for (int i = 0; i < 5; ++i)
+      EXPECT_NEAR(found.residual[cell][i], 0.5 / step * (sides[1][cell][i] - sides[0][cell][i]), 1e-9);
+  }
+  for (std::size_t face = 0; face < loads[0].size(); ++face) {
+    const Load expected = 0.5 / step * (loads[1][face] - loads[0][face]);
+    for (int axis = 0; axis < 3; ++axis) {
+      EXPECT_NEAR(found.of_faces[face].force[axis], expected.force[axis], 1e-9);
+      EXPECT_NEAR(found.of_faces[face].moment[axis], expected.moment[axis], 1e-9);
+    }
+  }
+  EXPECT_GT(comm.sum(changed), 20);
+  EXPECT_LT(comm.sum(changed), box.domain.global_cells / 2);
+}
+
 TEST_F(ShapeResponseTest, IsWhatAdjointsSay) {
   const Load weight{{0.3, 0, 1}, {0, -0.7, 0}};
   const std::vector<Load> weights(box.domain.patch_names.size(), weight);

@@ -8,6 +8,7 @@
 #include <functional>
 #include <optional>
 
+#include "derivatives/adjoint.hpp"
 #include "derivatives/sensitivity.hpp"
 #include "derivatives/shape_change.hpp"
 #include "support/ramp.hpp"
@@ -103,6 +104,31 @@ TEST_F(TurnedRampTest, OthersFeelTheTurnedWalls) {
                  return turned_by(turn, steady_conditions({ramp_mach, 0, 0}, {}, gamma_air, {0, by, 0}));
                }),
                1e-5);
+}
+
+// The adjoint of a load says the same of the wind, of rates and of a turn as the solves for these.
+TEST_F(TurnedRampTest, AdjointsFeelTheTurnedWalls) {
+  TurnedFlow flow(ramp_mesh(cubes), hinge, turn, conditions);
+  const Load weight{{0.3, 0, 1}, {0, -0.7, 0}};
+  const std::vector<Load> weights(flow.box.domain.patch_names.size(), weight);
+  const auto turned = change(flow);
+  AdjointSolver solver(flow.steady->iteration, conditions, settings);
+  solver.follow(turned.residual);
+  const auto adjoint = solver.solve({{"load", weights}}).front();
+  const auto weighted = [&](const Load& load) {
+    return dot(weight.force, load.force) + dot(weight.moment, load.moment);
+  };
+  const auto expect = [&](Real found, Real expected) {
+    EXPECT_NEAR(found, expected, 1e-6 * std::abs(expected));
+    EXPECT_GT(std::abs(expected), 0.01);
+  };
+  expect(adjoint.sensitivity.wind.z, weighted(response(flow, {"wind", {{0, 0, 1}, {}, {}}}).total));
+  expect(adjoint.sensitivity.rotation.y, weighted(response(flow, {"q", {{}, {}, {0, 1, 0}}}).total));
+  Load own = total_of(turned.loads);
+  auto numbers = numbers_of(std::span(&own, 1));
+  flow.box.comm.sum(numbers);
+  own = loads_of(numbers).front();
+  expect(adjoint.products.front() + weighted(own), weighted(response(flow, problem_of(turned)).total));
 }
 
 // A wall that turns at a rate is one that a grid turns at that rate past gas that stays where it is: on a

@@ -7,6 +7,7 @@
 
 #include <cmath>
 
+#include "march/turning.hpp"
 #include "support/box_case.hpp"
 
 namespace alphadot {
@@ -57,13 +58,19 @@ Real product(const ConditionsChange& a, const ConditionsChange& b) {
   return dot(a.wind, b.wind) + dot(a.grid_velocity, b.grid_velocity) + dot(a.rotation, b.rotation);
 }
 
-/// A linearisation about the rough flow and a grid that tumbles, or rests.
+/// A linearisation about the rough flow and a grid that tumbles, or rests, with walls that have turned by
+/// this angle.
 struct Linearised {
-  Linearised(const SpaceSettings& space, bool tumbles)
+  Linearised(const SpaceSettings& space, bool tumbles, Real turn = 0)
       : box(small_box(), all_sides, space, Communicator(), Dissipative::some),
         flow(box.domain, box.comm),
         conditions{free_stream(wind, gamma_air), tumbles ? tumbling_grid() : GridMotion<Real>{}, wind},
         residual(box.discretization, box.comm) {
+    if (turn != 0) {
+      const std::vector<std::string> patches{box.domain.patch_names[1], box.domain.patch_names[5]};
+      box.discretization.set_turned_walls(
+          turned_further(box.discretization, patches, {{0.9, 0.2, 2.3}, {0.6, 0, 0.8}}, turn, 0.3));
+    }
     fill(flow, box.domain, rough_state);
     std::vector<Conserved<Real>> values(box.cells());
     residual.evaluate(flow, conditions, space.order, values);
@@ -153,6 +160,12 @@ TEST_P(TangentTransposeTest, GivesTheSameProductsWhenTheLimiterIsHeld) {
   Linearised about(space(), tumbles());
   about.linearisation->hold_limiter();
   expect_the_same_products<2>(about, {});
+}
+
+TEST_P(TangentTransposeTest, GivesTheSameProductsWhereWallsHaveTurned) {
+  const Linearised about(space(), tumbles(), 0.1);
+  expect_the_same_products<3>(about, {});
+  expect_the_same_products<1>(about, {.conditions = false, .residual = false});
 }
 
 TEST_P(TangentTransposeTest, GivesTheSameProductsOfFirstOrder) {
